@@ -1,0 +1,96 @@
+// Bytes from and to files, the one place that knows about disks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mirrorball::detail {
+
+/// A file to read: sequentially or anywhere in it. Also stands for bytes in memory, so that decoders
+/// can be fuzzed. Every failure throws Error(Errc::cannot_read) with the name and the system's reason.
+class InputFile {
+  public:
+    explicit InputFile(const std::filesystem::path& path);
+    /// \pre bytes outlive this
+    InputFile(std::string name, std::span<const std::byte> bytes);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+    [[nodiscard]] std::uint64_t position() const { return position_; }
+    [[nodiscard]] std::uint64_t remaining() const { return size_ - position_; }
+
+    void seek(std::uint64_t position);
+    /// All of `out`, or an error that says where the file ended.
+    void read(std::span<std::byte> out);
+    /// As many bytes as there are; the count.
+    std::size_t read_some(std::span<std::byte> out);
+
+    template <class T>
+    T read_value() {
+        T value;
+        read(std::as_writable_bytes(std::span<T>(&value, 1)));
+        return value;
+    }
+
+    /// Throws Error(Errc::cannot_read): "NAME: WHAT".
+    [[noreturn]] void fail(const std::string& what) const;
+
+  private:
+    void fill();
+
+    std::string name_;
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0, position_ = 0;
+    std::span<const std::byte> memory_;  // the whole, or the buffered part
+    std::uint64_t memory_start_ = 0;     // of `memory_` in the file
+    std::vector<std::byte> buffer_;
+};
+
+/// A file to write. It has no name until commit(), which syncs it and renames it over the target;
+/// without commit() nothing is left. Every failure throws Error(Errc::cannot_write).
+class OutputFile {
+  public:
+    explicit OutputFile(const std::filesystem::path& path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] std::uint64_t position() const { return position_; }
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+
+    void write(std::span<const std::byte> bytes);
+    void write(std::string_view text);
+    template <class T>
+    void write_value(const T& value) {
+        write(std::as_bytes(std::span<const T>(&value, 1)));
+    }
+    /// What is written so far may be overwritten, as some formats do with their tables of offsets.
+    void seek(std::uint64_t position);
+    /// Reads back what was written (libtiff needs it). The count of bytes there were.
+    std::size_t read_back(std::span<std::byte> out);
+
+    /// Afterwards the target is the new file. Called once.
+    void commit();
+
+    /// Throws Error(Errc::cannot_write): "NAME: WHAT".
+    [[noreturn]] void fail(const std::string& what) const;
+
+  private:
+    void flush();
+
+    std::string name_;
+    std::filesystem::path target_, temporary_;
+    int descriptor_ = -1;
+    std::uint64_t position_ = 0, size_ = 0;
+    std::vector<std::byte> buffer_;  // not yet written; it lies just before position_
+};
+
+}  // namespace mirrorball::detail
