@@ -14,7 +14,7 @@
 namespace mirrorball::detail {
 namespace {
 
-constexpr double kDetail = 0.2 * kPi / 180;
+constexpr double kDetail = 0.28 * kPi / 180;
 
 const AtmosphereSettings kAir{.sun_elevation = 56 * kPi / 180,
                               .sun_azimuth = -38 * kPi / 180,

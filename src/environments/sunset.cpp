@@ -19,13 +19,13 @@
 namespace mirrorball::detail {
 namespace {
 
-constexpr double kDetail = 0.2 * kPi / 180;
+constexpr double kDetail = 0.28 * kPi / 180;
 
 const AtmosphereSettings kAir{.sun_elevation = 2.4 * kPi / 180,
                               .sun_azimuth = 24 * kPi / 180,
                               .haze = 4.5,
                               .ground_albedo = Vec3d(0.06),
-                              .exposure = 7};
+                              .exposure = 5};
 
 // Clouds
 // -------------------------------------------------------------------------------------------
