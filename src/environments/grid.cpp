@@ -16,7 +16,7 @@ namespace mirrorball::detail {
 namespace {
 
 // Degrees.
-constexpr double kDetail = 0.12 * kPi / 180;
+constexpr double kDetail = 0.2 * kPi / 180;
 constexpr double kCell = 15, kFine = 5;
 constexpr double kFinePen = 0.12, kCellPen = 0.28, kMainPen = 0.6;
 constexpr double kNumberHeight = 2.4, kNumberPen = 0.3;

@@ -151,14 +151,14 @@ TEST_P(EachBuiltin, KeepsItsFluxInEveryProjection) {
 
 TEST_P(EachBuiltin, KeepsItsFluxAtEverySize) {
     const Vec3d reference = flux(map_of(GetParam(), Projection::cube));
-    for (const int width : {2, 18, 768})
+    for (const int width : {2, 18, 512})
         EXPECT_LT(
             relative_difference(flux(make(GetParam(), Projection::equirect, width)), reference),
             1e-3)
             << width;
-    for (const Projection projection : {Projection::cube, Projection::sphere})
-        EXPECT_LT(relative_difference(flux(make(GetParam(), projection, 1)), reference), 1e-3)
-            << name(projection);
+    EXPECT_LT(relative_difference(flux(make(GetParam(), Projection::cube, 1)), reference), 1e-3);
+    // One texel whose rim is stretched without bound: the samples there are far apart.
+    EXPECT_LT(relative_difference(flux(make(GetParam(), Projection::sphere, 1)), reference), 1e-2);
 }
 
 // At a size where the sun fills texels.
@@ -344,7 +344,10 @@ const Probe kSides[] = {
 // right, 0.3 from the middle each.
 TEST(BuiltinAxes, IsUprightAndNotMirroredInEveryProjection) {
     for (const Projection projection : kProjections) {
-        const EnvironmentMap map = make("axes", projection, size_for(projection, 512));
+        // A sphere map shows -Z around its rim only, where texels are long.
+        const bool sphere = projection == Projection::sphere;
+        const EnvironmentMap map =
+            make("axes", projection, size_for(projection, sphere ? 1024 : 512));
         for (const Probe& side : kSides) {
             const auto at = [&](double x, double y) {
                 return colour_at(map, side.forward + side.right * x + side.up * y);
