@@ -287,26 +287,29 @@ TEST(Codecs, FilesThatAreNoPictures) {
                  {"No such file"});
 }
 
-// Every prefix of a file is refused, in words and at once.
+// Every prefix of a file is refused, in words, unless it holds all texels: TIFF ends with a remark.
 TEST(Codecs, TruncatedFilesAreRefused) {
     const TemporaryFolder folder;
     for (const Form& form : forms()) {
         if (form.channels != 3) continue;
         for (const bool compress : {true, false}) {
             SCOPED_TRACE(describe(form));
-            const fs::path whole = folder / ("whole" + form.ending), part = folder / "part";
-            write_image(whole, exact_image(form, 20, 6), {form.format, compress});
-            const std::string bytes = get(whole);
+            const fs::path path = folder / ("a" + form.ending);
+            const Image image = exact_image(form, 20, 6);
+            write_image(path, image, {form.format, compress});
+            const std::string bytes = get(path);
+            int read_count = 0;
             for (std::size_t size = 1; size < bytes.size(); size += 1 + bytes.size() / 97) {
-                put(part, bytes.substr(0, size));
+                detail::InputFile part("part", std::as_bytes(std::span(bytes).first(size)));
                 try {
-                    (void)read_file(part);
-                    ADD_FAILURE() << "read " << size << " of " << bytes.size() << " bytes";
+                    expect_equal(detail::read_contents(part, {}).levels[0][0], image);
+                    ++read_count;
                 } catch (const Error& error) {
                     EXPECT_EQ(error.code(), Errc::cannot_read);
-                    EXPECT_NE(std::string(error.what()).find(part.string()), std::string::npos);
+                    EXPECT_TRUE(std::string(error.what()).starts_with("part: ")) << error.what();
                 }
             }
+            EXPECT_LE(read_count, form.ending == ".tif" ? 4 : 0);
         }
     }
 }

@@ -39,8 +39,8 @@ float from_code(int code, int most = 255) {
 struct PngForm {
     int colour_type, depth, width, height;
     bool interlaced = false;
-    std::vector<png_color> palette;
-    std::vector<png_byte> palette_alpha;
+    std::vector<png_color> palette = {};
+    std::vector<png_byte> palette_alpha = {};
     double gamma = 0;
 };
 
@@ -349,6 +349,28 @@ TEST(Tiff, IsTurnedUpright) {
     ASSERT_EQ(image.width(), 2);
     EXPECT_EQ(std::vector<float>(image.values().begin(), image.values().end()),
               (std::vector<float>{4, 1, 5, 2, 6, 3}));
+}
+
+TEST(Tiff, WildClaimsAreRefused) {
+    const TemporaryFolder folder;
+    for (const int compression : {COMPRESSION_NONE, COMPRESSION_ADOBE_DEFLATE}) {
+        TiffForm form{32, SAMPLEFORMAT_IEEEFP, 3, false, false};
+        form.compression = compression;
+        const auto claim = [&](int width, int height) {
+            return [&, width, height] {
+                write_tiff<float>(folder / "a.tif", form, width, 0, [](int) { return 0; });
+                TIFF* tiff = TIFFOpen((folder / "a.tif").c_str(), "r+");
+                TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
+                TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
+                TIFFRewriteDirectory(tiff);
+                TIFFClose(tiff);
+                (void)read_file(folder / "a.tif");
+            };
+        };
+        expect_error(claim(100'000, 100'000), Errc::cannot_read, {"truncated", "100000 x 100000"});
+        expect_error(claim(4, 0), Errc::cannot_read, {"a.tif"});
+        expect_error(claim(4'000'000, 1), Errc::cannot_read, {"claims 4000000 x 1"});
+    }
 }
 
 TEST(Tiff, WhatIsNotReadIsNamed) {
