@@ -106,6 +106,9 @@ HdrReader::HdrReader(InputFile& file) : file_(file) {
     check_length_of_file();
     planes_.resize(std::size_t{4} * length_);
     for (int c = 0; c < 3; ++c) divisor_[c] = static_cast<float>(exposure_ * colour_correction_[c]);
+    for (const float divisor : divisor_)
+        if (!std::isnormal(divisor))
+            file_.fail("header's EXPOSURE and COLORCORR multiply to what is out of range");
     if (divisor_ != std::array<float, 3>{1, 1, 1})
         notes_.push_back(
             fmt::format("values divided by its EXPOSURE and COLORCORR, {:.6g} {:.6g} {:.6g}",

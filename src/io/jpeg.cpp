@@ -141,6 +141,7 @@ class JpegReader {
     FileContents read(const ReadOptions& options) {
         call([&] { jpeg_read_header(&jpeg_, TRUE); });
         choose_colours();
+        const int orientation = find_orientation();
         const std::int64_t width = jpeg_.image_width, height = jpeg_.image_height;
         // A block is at most 32 x 32 texels (8 x 8, sampled at a quarter), and takes one bit or
         // more.
@@ -158,7 +159,11 @@ class JpegReader {
         contents.stored = TexelFormat::unorm8;
         contents.notes.push_back(transfer_note(options.transfer, 8));
         if (is_cmyk_) contents.notes.push_back("CMYK inks were made RGB without a colour profile");
-        contents.levels.emplace_back().push_back(turned(std::move(stored), contents.notes));
+        if (orientation != 1)
+            contents.notes.push_back(
+                fmt::format("was turned upright by its EXIF orientation ({})", orientation));
+        contents.levels.emplace_back().push_back(
+            oriented(std::move(stored), tiff_orientation(orientation)));
         return contents;
     }
 
@@ -205,16 +210,13 @@ class JpegReader {
         }
     }
 
-    Image turned(Image stored, std::vector<std::string>& notes) const {
+    // Before the picture is decoded: libjpeg drops the markers when it is done.
+    int find_orientation() const {
         for (auto* marker = jpeg_.marker_list; marker != nullptr; marker = marker->next) {
-            if (marker->marker != JPEG_APP0 + 1) continue;
             const int number = exif_orientation({marker->data, marker->data_length});
-            const Orientation orientation = tiff_orientation(number);
-            if (orientation.upright()) continue;
-            notes.push_back(fmt::format("was turned upright by its EXIF orientation ({})", number));
-            return oriented(std::move(stored), orientation);
+            if (!tiff_orientation(number).upright()) return number;
         }
-        return stored;
+        return 1;
     }
 
     InputFile& file_;
