@@ -359,6 +359,7 @@ TEST(Tiff, WildClaimsAreRefused) {
         const auto claim = [&](int width, int height) {
             return [&, width, height] {
                 write_tiff<float>(folder / "a.tif", form, width, 0, [](int) { return 0; });
+                TIFFSetErrorHandler(nullptr);  // what libtiff says of its own file is no matter
                 TIFF* tiff = TIFFOpen((folder / "a.tif").c_str(), "r+");
                 TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
                 TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
