@@ -212,6 +212,9 @@ namespace detail {
 std::span<const Codec* const> codecs() {
     static const std::vector<const Codec*> kTable = {
         &kHdr,
+        &kExr,
+        &kKtx2,
+        &kDds,
     };
     return kTable;
 }

@@ -5,8 +5,8 @@
 //     128  DX10 header   20 bytes, where the pixel format is the code "DX10": a DXGI number
 //          texels        face by face (+X -X +Y -Y +Z -Z), each with all its levels, base first
 //
-// We write the DX10 header, which says all without guessing, and read it and the two older codes for
-// half and float. Faces lie as in OpenGL and KTX2.
+// We write the DX10 header, which says all without guessing, and read it and the two older codes
+// for half and float. Faces lie as in OpenGL and KTX2.
 #include <algorithm>
 #include <bit>
 #include <cctype>
@@ -87,8 +87,8 @@ std::string dxgi_in_words(std::uint32_t dxgi) {
 std::string four_cc_in_words(std::uint32_t code) {
     std::string text;
     for (int i = 0; i < 4; ++i) text += static_cast<char>(code >> 8 * i & 0xff);
-    const bool printable = std::all_of(text.begin(), text.end(),
-                                       [](unsigned char c) { return std::isprint(c) != 0; });
+    const bool printable =
+        std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isprint(c) != 0; });
     return printable ? fmt::format("'{}'", text) : fmt::format("{}", code);
 }
 
@@ -113,8 +113,8 @@ Description describe_dx10(const InputFile& file, const Dx10Header& dx10) {
         file.fail(fmt::format("its dimension is number {} (3 was expected)", dx10.dimension));
     // For a cube this counts cubes, not faces.
     if (dx10.array_size != 1)
-        file.fail(fmt::format("is an array of {}; read are single pictures and cubes",
-                              dx10.array_size));
+        file.fail(
+            fmt::format("is an array of {}; read are single pictures and cubes", dx10.array_size));
     return {packing, (dx10.misc_flags & kMiscCube) != 0};
 }
 
@@ -150,8 +150,8 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     if (header.size != sizeof(Header) || header.pixel_format.size != sizeof(PixelFormat))
         file.fail(fmt::format("its header says {} and {} bytes (124 and 32 were expected)",
                               header.size, header.pixel_format.size));
-    const bool has_dx10 = (header.pixel_format.flags & kHasFourCc) != 0 &&
-                          header.pixel_format.four_cc == kDx10;
+    const bool has_dx10 =
+        (header.pixel_format.flags & kHasFourCc) != 0 && header.pixel_format.four_cc == kDx10;
     const Description found = has_dx10 ? describe_dx10(file, file.read_value<Dx10Header>())
                                        : describe_legacy(file, header);
     if (found.is_cube && header.width != header.height)
@@ -162,7 +162,8 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     // Some writers leave the flag or the count away where there is but the base.
     const bool counted = (header.flags & kHasLevelCount) != 0 || (header.caps & kMipmap) != 0;
     const std::uint32_t level_count = counted ? std::max(header.level_count, 1u) : 1;
-    constexpr std::uint32_t kMostLevels = 21;  // of the largest side that check_claim() lets through
+    constexpr std::uint32_t kMostLevels =
+        21;  // of the largest side that check_claim() lets through
     if (level_count > kMostLevels) file.fail(fmt::format("claims {} levels", level_count));
     check_claim(file, header.width, header.height, channel_count(found.packing),
                 image_count_bound(face_count, static_cast<int>(level_count)), 0, options);

@@ -2,16 +2,18 @@
 // Khronos, "KTX File Format Specification", version 2.0; "Khronos Data Format Specification" 1.3.
 //
 //     0   identifier        12 bytes
-//     12  header            vkFormat typeSize width height depth layers faces levels supercompression
-//     48  index             offset and length of: descriptor, key/values, global data (ours: none)
-//     80  level index       per level, base first: offset, length, length before supercompression
+//     12  header            vkFormat typeSize width height depth layers faces levels
+//     supercompression 48  index             offset and length of: descriptor, key/values, global
+//     data (ours: none) 80  level index       per level, base first: offset, length, length before
+//     supercompression
 //         descriptor        what the bits of a texel mean; follows from vkFormat
 //         key/values        sorted by key; ours are strings with a NUL
 //         levels            smallest first, so that a stream can be shown before it has all come;
 //                           each begins at a multiple of lcm(texel bytes, 4), or anywhere once
 //                           supercompressed; in it the faces, tightly packed
 //
-// We read and write single 2-D pictures and cubes. Arrays, volumes and block compression are refused.
+// We read and write single 2-D pictures and cubes. Arrays, volumes and block compression are
+// refused.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -25,6 +27,7 @@
 #include <mirrorball/error.h>
 
 #include "codec.h"
+#include "orientation.h"
 #include "packed.h"
 
 namespace mirrorball::detail {
@@ -78,13 +81,19 @@ const Format& format_for(Packing packing) {
 // A few that users meet and that we do not read, so that the message can say what it was.
 std::string format_in_words(std::uint32_t vk_format) {
     switch (vk_format) {
-        case 0: return "VK_FORMAT_UNDEFINED, as Basis Universal textures have";
-        case 143: return "143 (BC6H_UFLOAT_BLOCK)";
-        case 144: return "144 (BC6H_SFLOAT_BLOCK)";
+        case 0:
+            return "VK_FORMAT_UNDEFINED, as Basis Universal textures have";
+        case 143:
+            return "143 (BC6H_UFLOAT_BLOCK)";
+        case 144:
+            return "144 (BC6H_SFLOAT_BLOCK)";
         default:
-            if (vk_format >= 131 && vk_format <= 146) return fmt::format("{} (a BC block)", vk_format);
-            if (vk_format >= 147 && vk_format <= 156) return fmt::format("{} (an ETC block)", vk_format);
-            if (vk_format >= 157 && vk_format <= 184) return fmt::format("{} (an ASTC block)", vk_format);
+            if (vk_format >= 131 && vk_format <= 146)
+                return fmt::format("{} (a BC block)", vk_format);
+            if (vk_format >= 147 && vk_format <= 156)
+                return fmt::format("{} (an ETC block)", vk_format);
+            if (vk_format >= 157 && vk_format <= 184)
+                return fmt::format("{} (an ASTC block)", vk_format);
             return fmt::format("{}", vk_format);
     }
 }
@@ -104,7 +113,8 @@ std::uint64_t level_bytes(Packing packing, int face_count, int width, int height
 // Data format descriptor --------------------------------------------------------------------------
 
 constexpr std::uint8_t kRed = 0, kGreen = 1, kBlue = 2, kAlpha = 15;
-constexpr std::uint8_t kLinearFlag = 0x10, kExponentFlag = 0x20, kSignedFlag = 0x40, kFloatFlag = 0x80;
+constexpr std::uint8_t kLinearFlag = 0x10, kExponentFlag = 0x20, kSignedFlag = 0x40,
+                       kFloatFlag = 0x80;
 constexpr std::uint32_t kFloatOne = 0x3F800000, kFloatMinusOne = 0xBF800000;
 constexpr std::uint8_t kPrimariesBt709 = 1, kTransferLinear = 1, kTransferSrgb = 2;
 
@@ -130,8 +140,12 @@ static_assert(sizeof(Descriptor) == 28);
 
 Sample sample(int bit_offset, int bit_length, int channel_and_flags, std::uint32_t lower,
               std::uint32_t upper) {
-    return {static_cast<std::uint16_t>(bit_offset), static_cast<std::uint8_t>(bit_length - 1),
-            static_cast<std::uint8_t>(channel_and_flags), 0, lower, upper};
+    return {static_cast<std::uint16_t>(bit_offset),
+            static_cast<std::uint8_t>(bit_length - 1),
+            static_cast<std::uint8_t>(channel_and_flags),
+            0,
+            lower,
+            upper};
 }
 
 std::vector<Sample> samples(Packing packing) {
@@ -143,8 +157,8 @@ std::vector<Sample> samples(Packing packing) {
                     sample(11, 11, kGreen | kFloatFlag, 0, kFloatOne),
                     sample(22, 10, kBlue | kFloatFlag, 0, kFloatOne)};
         case Packing::rgb9e5:
-            // Each channel is a mantissa and, after it, the exponent that all share. The figures for
-            // `upper` are those of the Data Format Specification's example of this format.
+            // Each channel is a mantissa and, after it, the exponent that all share. The figures
+            // for `upper` are those of the Data Format Specification's example of this format.
             for (int c = 0; c < 3; ++c) {
                 result.push_back(sample(9 * c, 9, kChannels[c], 0, 8448));
                 result.push_back(sample(27, 5, kChannels[c] | kExponentFlag, 15, 31));
@@ -154,7 +168,8 @@ std::vector<Sample> samples(Packing packing) {
         case Packing::rgba8_srgb:
             for (int c = 0; c < 4; ++c) {
                 const bool uncurved = packing == Packing::rgba8_srgb && c == 3;
-                result.push_back(sample(8 * c, 8, kChannels[c] | (uncurved ? kLinearFlag : 0), 0, 255));
+                result.push_back(
+                    sample(8 * c, 8, kChannels[c] | (uncurved ? kLinearFlag : 0), 0, 255));
             }
             return result;
         default: {
@@ -167,12 +182,13 @@ std::vector<Sample> samples(Packing packing) {
     }
 }
 
-// plane_bytes stay those of the texels when levels are supercompressed: so KTX-Software since 4.4 and
-// the revised specification; before it they were to be 0, which made some formats undecodable.
+// plane_bytes stay those of the texels when levels are supercompressed: so KTX-Software since 4.4
+// and the revised specification; before it they were to be 0, which made some formats undecodable.
 std::vector<std::byte> descriptor_bytes(Packing packing) {
     const std::vector<Sample> all = samples(packing);
     Descriptor d{};
-    d.block_length = static_cast<std::uint16_t>(sizeof(Descriptor) - 4 + all.size() * sizeof(Sample));
+    d.block_length =
+        static_cast<std::uint16_t>(sizeof(Descriptor) - 4 + all.size() * sizeof(Sample));
     d.total_length = 4 + d.block_length;
     d.version = 2;
     d.colour_model = 1;  // RGBSDA
@@ -194,8 +210,8 @@ void read_descriptor(InputFile& file, const Header& header, FileContents& conten
     file.seek(header.descriptor_offset);
     const auto d = file.read_value<Descriptor>();
     if (d.total_length != header.descriptor_length)
-        file.fail(fmt::format("its data format descriptor says {} bytes, its index {}", d.total_length,
-                              header.descriptor_length));
+        file.fail(fmt::format("its data format descriptor says {} bytes, its index {}",
+                              d.total_length, header.descriptor_length));
     if (d.primaries != 0 && d.primaries != kPrimariesBt709)
         contents.notes.push_back(fmt::format(
             "has colour primaries number {}; its values are kept as they are, as if Rec. 709",
@@ -275,8 +291,8 @@ Metadata read_key_values(InputFile& file, const Header& header) {
 void check_range(const InputFile& file, std::string_view what, std::uint64_t offset,
                  std::uint64_t length) {
     if (offset > file.size() || length > file.size() - offset)
-        file.fail(fmt::format("its {} is at byte {} with {} bytes, and the file has {}", what, offset,
-                              length, file.size()));
+        file.fail(fmt::format("its {} is at byte {} with {} bytes, and the file has {}", what,
+                              offset, length, file.size()));
 }
 
 Header read_header(InputFile& file) {
@@ -294,23 +310,26 @@ const Format& check_header(const InputFile& file, const Header& h) {
     const auto* format = std::find_if(std::begin(kFormats), std::end(kFormats),
                                       [&](const Format& f) { return f.vk_format == h.vk_format; });
     if (format == std::end(kFormats))
-        file.fail(fmt::format("its texel format is {}; read are half and float RGB and RGBA, "
-                              "E5B9G9R9, B10G11R11 and 8-bit RGBA",
-                              format_in_words(h.vk_format)));
+        file.fail(
+            fmt::format("its texel format is {}; read are half and float RGB and RGBA, "
+                        "E5B9G9R9, B10G11R11 and 8-bit RGBA",
+                        format_in_words(h.vk_format)));
     if (h.supercompression != kNone && h.supercompression != kZstandard)
         file.fail(fmt::format("its supercompression is {}{}; read are none (0) and Zstandard (2)",
                               h.supercompression,
-                              h.supercompression == kBasis   ? " (BasisLZ)"
+                              h.supercompression == kBasis  ? " (BasisLZ)"
                               : h.supercompression == kZlib ? " (ZLIB)"
                                                             : ""));
-    if (h.depth != 0) file.fail(fmt::format("is a volume of depth {}; read are 2-D and cubes", h.depth));
+    if (h.depth != 0)
+        file.fail(fmt::format("is a volume of depth {}; read are 2-D and cubes", h.depth));
     if (h.layer_count != 0)
         file.fail(fmt::format("is an array of {} layers; read are single pictures and cubes",
                               h.layer_count));
     if (h.face_count != 1 && h.face_count != 6)
         file.fail(fmt::format("has {} faces (1 or 6 were expected)", h.face_count));
     if (h.width < 1 || h.height < 1)
-        file.fail(fmt::format("is {} x {} texels; 2-D pictures and cubes have both", h.width, h.height));
+        file.fail(
+            fmt::format("is {} x {} texels; 2-D pictures and cubes have both", h.width, h.height));
     if (h.face_count == 6 && h.width != h.height)
         file.fail(fmt::format("its cube faces are {} x {} texels, not square", h.width, h.height));
     return *format;
@@ -333,19 +352,6 @@ void read_level(InputFile& file, const LevelEntry& entry, std::uint32_t supercom
         file.fail(fmt::format("a level unpacks to {} bytes ({} were expected)", size, out.size()));
 }
 
-void flip_rows(Image& image) {
-    for (int y = 0; y < image.height() / 2; ++y)
-        std::swap_ranges(image.row(y).begin(), image.row(y).end(),
-                         image.row(image.height() - 1 - y).begin());
-}
-
-void flip_columns(Image& image) {
-    const int n = image.channels();
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width() / 2; ++x)
-            std::swap_ranges(image.at(x, y), image.at(x, y) + n, image.at(image.width() - 1 - x, y));
-}
-
 // Our pictures run to the right and down; a cube of any other orientation is not valid KTX2.
 void apply_orientation(const InputFile& file, FileContents& contents) {
     const auto found = contents.metadata.find(std::string(kOrientationKey));
@@ -354,11 +360,10 @@ void apply_orientation(const InputFile& file, FileContents& contents) {
     const bool known = orientation == "ru" || orientation == "ld" || orientation == "lu";
     if (!known || contents.levels.front().size() == 6)
         file.fail(fmt::format("its KTXorientation is '{}' ('rd' was expected)", orientation));
-    for (auto& faces : contents.levels) {
-        if (orientation[0] == 'l') flip_columns(faces.front());
-        if (orientation[1] == 'u') flip_rows(faces.front());
-    }
-    contents.notes.push_back(fmt::format("its KTXorientation '{}' was turned to 'rd'", orientation));
+    const Orientation stored{false, orientation[0] == 'l', orientation[1] == 'u'};
+    for (auto& faces : contents.levels) faces.front() = oriented(std::move(faces.front()), stored);
+    contents.notes.push_back(
+        fmt::format("its KTXorientation '{}' was turned to 'rd'", orientation));
 }
 
 bool recognises(std::span<const std::byte> head) {
@@ -373,7 +378,8 @@ FileContents read(InputFile& file, const ReadOptions& options) {
 
     // A level count of 0 asks the reader to make the mips; what is stored is the base.
     const std::uint32_t level_count = std::max(header.level_count, 1u);
-    constexpr std::uint32_t kMostLevels = 21;  // of the largest side that check_claim() lets through
+    constexpr std::uint32_t kMostLevels =
+        21;  // of the largest side that check_claim() lets through
     if (level_count > kMostLevels) file.fail(fmt::format("claims {} levels", level_count));
 
     // A Zstandard block holds at most 2^17 bytes and takes at least 4: its header and one byte.
@@ -382,8 +388,9 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     const double base_bytes = texels * texel_bytes(format.packing);
     const double least = header.supercompression == kNone ? base_bytes : base_bytes / kLargestRatio;
     if (least > static_cast<double>(file.remaining()))
-        file.fail(fmt::format("is truncated: {} x {} texels need at least {:.0f} bytes, and {} are left",
-                              header.width, header.height, least, file.remaining()));
+        file.fail(
+            fmt::format("is truncated: {} x {} texels need at least {:.0f} bytes, and {} are left",
+                        header.width, header.height, least, file.remaining()));
     check_claim(file, header.width, header.height, channel_count(format.packing),
                 image_count_bound(face_count, static_cast<int>(level_count)),
                 static_cast<std::uint64_t>(least), options);
@@ -421,7 +428,8 @@ FileContents read(InputFile& file, const ReadOptions& options) {
         std::vector<Image>& faces = contents.levels.emplace_back();
         const std::uint64_t face_bytes = expected / face_count;
         for (int face = 0; face < face_count; ++face)
-            faces.push_back(unpack(packing, std::span(bytes).subspan(face * face_bytes, face_bytes), w, h));
+            faces.push_back(
+                unpack(packing, std::span(bytes).subspan(face * face_bytes, face_bytes), w, h));
     }
     drop_opaque_alpha(contents);
     apply_orientation(file, contents);

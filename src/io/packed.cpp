@@ -35,10 +35,14 @@ void store(std::byte* to, const T& value) {
 
 Texel texel_of(const float* values, int channels) {
     switch (channels) {
-        case 1: return {values[0], values[0], values[0], 1};
-        case 2: return {values[0], values[0], values[0], values[1]};
-        case 3: return {values[0], values[1], values[2], 1};
-        default: return {values[0], values[1], values[2], values[3]};
+        case 1:
+            return {values[0], values[0], values[0], 1};
+        case 2:
+            return {values[0], values[0], values[0], values[1]};
+        case 3:
+            return {values[0], values[1], values[2], 1};
+        default:
+            return {values[0], values[1], values[2], values[3]};
     }
 }
 
@@ -49,14 +53,23 @@ std::uint8_t pack_unorm8(float value) {
 void pack_texel(Packing packing, const Texel& texel, std::byte* out) {
     const std::array<float, 3> rgb{texel[0], texel[1], texel[2]};
     switch (packing) {
-        case Packing::rgba32f: store(out, texel); break;
-        case Packing::rgb32f: store(out, rgb); break;
+        case Packing::rgba32f:
+            store(out, texel);
+            break;
+        case Packing::rgb32f:
+            store(out, rgb);
+            break;
         case Packing::rgba16f:
         case Packing::rgb16f:
-            for (int c = 0; c < channel_count(packing); ++c) store(out + 2 * c, pack_half(texel[c]));
+            for (int c = 0; c < channel_count(packing); ++c)
+                store(out + 2 * c, pack_half(texel[c]));
             break;
-        case Packing::rgb9e5: store(out, pack_rgb9e5(rgb)); break;
-        case Packing::b10g11r11f: store(out, pack_b10g11r11f(rgb)); break;
+        case Packing::rgb9e5:
+            store(out, pack_rgb9e5(rgb));
+            break;
+        case Packing::b10g11r11f:
+            store(out, pack_b10g11r11f(rgb));
+            break;
         case Packing::rgba8:
             for (int c = 0; c < 4; ++c) store(out + c, pack_unorm8(texel[c]));
             break;
@@ -69,8 +82,12 @@ void pack_texel(Packing packing, const Texel& texel, std::byte* out) {
 
 void unpack_texel(Packing packing, const std::byte* bytes, float* out) {
     switch (packing) {
-        case Packing::rgba32f: std::memcpy(out, bytes, 16); break;
-        case Packing::rgb32f: std::memcpy(out, bytes, 12); break;
+        case Packing::rgba32f:
+            std::memcpy(out, bytes, 16);
+            break;
+        case Packing::rgb32f:
+            std::memcpy(out, bytes, 12);
+            break;
         case Packing::rgba16f:
         case Packing::rgb16f:
             for (int c = 0; c < channel_count(packing); ++c)
@@ -101,11 +118,16 @@ void unpack_texel(Packing packing, const std::byte* bytes, float* out) {
 
 int texel_bytes(Packing packing) {
     switch (packing) {
-        case Packing::rgba32f: return 16;
-        case Packing::rgb32f: return 12;
-        case Packing::rgba16f: return 8;
-        case Packing::rgb16f: return 6;
-        default: return 4;
+        case Packing::rgba32f:
+            return 16;
+        case Packing::rgb32f:
+            return 12;
+        case Packing::rgba16f:
+            return 8;
+        case Packing::rgb16f:
+            return 6;
+        default:
+            return 4;
     }
 }
 
@@ -114,29 +136,40 @@ int channel_count(Packing packing) {
         case Packing::rgba32f:
         case Packing::rgba16f:
         case Packing::rgba8:
-        case Packing::rgba8_srgb: return 4;
-        default: return 3;
+        case Packing::rgba8_srgb:
+            return 4;
+        default:
+            return 3;
     }
 }
 
 Packing packing_for(TexelFormat format) {
     switch (format) {
-        case TexelFormat::rgba32f: return Packing::rgba32f;
-        case TexelFormat::rgb9e5: return Packing::rgb9e5;
-        case TexelFormat::r11g11b10f: return Packing::b10g11r11f;
-        default: return Packing::rgba16f;
+        case TexelFormat::rgba32f:
+            return Packing::rgba32f;
+        case TexelFormat::rgb9e5:
+            return Packing::rgb9e5;
+        case TexelFormat::r11g11b10f:
+            return Packing::b10g11r11f;
+        default:
+            return Packing::rgba16f;
     }
 }
 
 TexelFormat texel_format(Packing packing) {
     switch (packing) {
         case Packing::rgba32f:
-        case Packing::rgb32f: return TexelFormat::rgba32f;
+        case Packing::rgb32f:
+            return TexelFormat::rgba32f;
         case Packing::rgba16f:
-        case Packing::rgb16f: return TexelFormat::rgba16f;
-        case Packing::rgb9e5: return TexelFormat::rgb9e5;
-        case Packing::b10g11r11f: return TexelFormat::r11g11b10f;
-        default: return TexelFormat::unorm8;
+        case Packing::rgb16f:
+            return TexelFormat::rgba16f;
+        case Packing::rgb9e5:
+            return TexelFormat::rgb9e5;
+        case Packing::b10g11r11f:
+            return TexelFormat::r11g11b10f;
+        default:
+            return TexelFormat::unorm8;
     }
 }
 
@@ -177,8 +210,8 @@ float unpack_half(std::uint16_t bits) {
 }
 
 // The value is q 2^(e - m) with m bits of mantissa, e its exponent but at least the smallest normal
-// one, and q a whole number below 2^(m+1). Its bits are (e + 14) 2^m + q: normal numbers carry their
-// leading one into the exponent field, and so does a q that rounding made 2^(m+1).
+// one, and q a whole number below 2^(m+1). Its bits are (e + 14) 2^m + q: normal numbers carry
+// their leading one into the exponent field, and so does a q that rounding made 2^(m+1).
 std::uint32_t pack_unsigned_float(float value, int mantissa_bits) {
     constexpr int kSmallestExponent = -14;
     const std::uint32_t infinity = 31u << mantissa_bits;
@@ -188,7 +221,8 @@ std::uint32_t pack_unsigned_float(float value, int mantissa_bits) {
     const int exponent = std::max(std::ilogb(value), kSmallestExponent);
     if (exponent > 15) return infinity - 1;
     // Exact in double; nearbyint rounds halves to even.
-    const double q = std::nearbyint(std::ldexp(static_cast<double>(value), mantissa_bits - exponent));
+    const double q =
+        std::nearbyint(std::ldexp(static_cast<double>(value), mantissa_bits - exponent));
     const std::uint32_t bits =
         (static_cast<std::uint32_t>(exponent - kSmallestExponent) << mantissa_bits) +
         static_cast<std::uint32_t>(q);
@@ -198,8 +232,7 @@ std::uint32_t pack_unsigned_float(float value, int mantissa_bits) {
 float unpack_unsigned_float(std::uint32_t bits, int mantissa_bits) {
     const int exponent = static_cast<int>(bits >> mantissa_bits);
     const std::uint32_t one = 1u << mantissa_bits, mantissa = bits & (one - 1);
-    if (exponent == 31)
-        return mantissa == 0 ? kInfinity : std::numeric_limits<float>::quiet_NaN();
+    if (exponent == 31) return mantissa == 0 ? kInfinity : std::numeric_limits<float>::quiet_NaN();
     if (exponent == 0) return std::ldexp(static_cast<float>(mantissa), -14 - mantissa_bits);
     return std::ldexp(static_cast<float>(one + mantissa), exponent - 15 - mantissa_bits);
 }
@@ -214,9 +247,9 @@ std::array<float, 3> unpack_b10g11r11f(std::uint32_t bits) {
             unpack_unsigned_float(bits >> 22, 5)};
 }
 
-// value = mantissa 2^(exponent - 24), three mantissas of 9 bits and one exponent of 5. As in OpenGL's
-// EXT_texture_shared_exponent, the exponent is the smallest that holds the largest of the three after
-// rounding, and halves round up.
+// value = mantissa 2^(exponent - 24), three mantissas of 9 bits and one exponent of 5. As in
+// OpenGL's EXT_texture_shared_exponent, the exponent is the smallest that holds the largest of the
+// three after rounding, and halves round up.
 std::uint32_t pack_rgb9e5(const std::array<float, 3>& rgb) {
     constexpr double kLargest = 65408;  // 511 2^(31 - 24)
     std::array<double, 3> value;
@@ -260,12 +293,14 @@ void require_halved_levels(const OutputFile& file, const FileContents& contents)
         file.fail(fmt::format("{} levels; a map of {} x {} can have {}", contents.levels.size(),
                               base.width(), base.height(), most));
     for (int level = 0; level < static_cast<int>(contents.levels.size()); ++level) {
-        const int width = level_size(base.width(), level), height = level_size(base.height(), level);
+        const int width = level_size(base.width(), level),
+                  height = level_size(base.height(), level);
         for (const Image& image : contents.levels[level])
             if (image.width() != width || image.height() != height)
-                file.fail(fmt::format("level {} is {} x {}; the format wants {} x {}, each level half "
-                                      "of the one before, rounded down",
-                                      level, image.width(), image.height(), width, height));
+                file.fail(
+                    fmt::format("level {} is {} x {}; the format wants {} x {}, each level half "
+                                "of the one before, rounded down",
+                                level, image.width(), image.height(), width, height));
     }
 }
 

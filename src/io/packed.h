@@ -38,10 +38,11 @@ enum class Packing {
 /// these formats say whether a texel is sRGB.
 [[nodiscard]] Packing with_transfer(Packing packing, Transfer transfer);
 
-/// Grey images become equal red, green and blue; a missing alpha is 1; an alpha that the packing has
-/// no room for is dropped. `out` has exactly the bytes that the image takes.
+/// Grey images become equal red, green and blue; a missing alpha is 1; an alpha that the packing
+/// has no room for is dropped. `out` has exactly the bytes that the image takes.
 void pack(Packing packing, const Image& image, std::span<std::byte> out);
-[[nodiscard]] Image unpack(Packing packing, std::span<const std::byte> bytes, int width, int height);
+[[nodiscard]] Image unpack(Packing packing, std::span<const std::byte> bytes, int width,
+                           int height);
 
 // Single texels and numbers.
 
@@ -61,7 +62,8 @@ void pack(Packing packing, const Image& image, std::span<std::byte> out);
 [[nodiscard]] int level_size(int size, int level);
 /// How many levels there can be.
 [[nodiscard]] int possible_level_count(int width, int height);
-/// The most texels that a chain of this base holds per texel of the base, rounded up to whole images.
+/// The most texels that a chain of this base holds per texel of the base, rounded up to whole
+/// images.
 [[nodiscard]] std::int64_t image_count_bound(int face_count, int level_count);
 /// Refuses to write a chain whose levels have other sizes, or more than there can be.
 void require_halved_levels(const OutputFile& file, const FileContents& contents);
