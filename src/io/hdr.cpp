@@ -156,7 +156,7 @@ void HdrReader::read_variable(std::string_view line) {
         const std::vector<double> correction = factors(3);
         for (int c = 0; c < 3; ++c) colour_correction_[c] *= correction[c];
     } else {
-        if (key == "PRIMARIES")
+        if (key == "PRIMARIES" && value.find_first_of("123456789") != std::string_view::npos)
             notes_.push_back(fmt::format("states PRIMARIES={}, which are not converted", value));
         metadata_.emplace(key, value);
     }
