@@ -36,9 +36,8 @@ int crop_size(const CropCircle& circle) {
 void check_crop(const std::string& picture_name, int width, int height, const CropCircle& circle) {
     const auto [x, y, radius] = circle;
     const auto fail = [&](const std::string& expected) {
-        throw Error(Errc::usage,
-                    fmt::format("{}: the circle of radius {} about ({}, {}) {}", picture_name,
-                                radius, x, y, expected));
+        throw Error(Errc::usage, fmt::format("{}: the circle of radius {} about ({}, {}) {}",
+                                             picture_name, radius, x, y, expected));
     };
     // written so that NaN fails too
     if (!(radius > 0)) fail("is none: its radius must be above 0");

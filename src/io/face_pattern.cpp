@@ -126,8 +126,8 @@ FaceFiles find_face_files(const std::string& pattern, std::optional<Projection> 
                                              pattern, name(*projection)));
     }
 
-    // The scheme with most files there wins: five of six faces are a cube that misses one, even where
-    // two of them would make a pair of paraboloids.
+    // The scheme with most files there wins: five of six faces are a cube that misses one, even
+    // where two of them would make a pair of paraboloids.
     std::vector<Candidate> best;
     for (const Scheme& scheme : schemes()) {
         if (projection && scheme.projection != *projection) continue;
@@ -145,11 +145,11 @@ FaceFiles find_face_files(const std::string& pattern, std::optional<Projection> 
     const Candidate& chosen = best.front();
     if (!chosen.missing.empty()) fail_with_missing(pattern, chosen);
     if (best.size() > 1 && best[1].missing.empty()) {
-        throw Error(Errc::cannot_read,
-                    fmt::format("{}: there are two sets of faces, {} and {}; name the six files, "
-                                "separated by commas",
-                                pattern, fmt::join(chosen.names, " "),
-                                fmt::join(best[1].names, " ")));
+        throw Error(
+            Errc::cannot_read,
+            fmt::format("{}: there are two sets of faces, {} and {}; name the six files, "
+                        "separated by commas",
+                        pattern, fmt::join(chosen.names, " "), fmt::join(best[1].names, " ")));
     }
     return {chosen.projection, paths_of(pattern, chosen.names),
             fmt::format("read as the faces {} of a {} map", fmt::join(chosen.names, " "),
@@ -175,9 +175,8 @@ FaceFiles split_face_list(const std::string& list) {
 }
 
 std::vector<std::filesystem::path> face_targets(const std::string& pattern, Projection projection) {
-    const auto scheme =
-        std::find_if(schemes().begin(), schemes().end(),
-                     [&](const Scheme& s) { return s.projection == projection; });
+    const auto scheme = std::find_if(schemes().begin(), schemes().end(),
+                                     [&](const Scheme& s) { return s.projection == projection; });
     if (scheme == schemes().end()) {
         throw Error(Errc::usage, fmt::format("{}: %s stands for a face, and {} maps have only one",
                                              pattern, name(projection)));

@@ -18,11 +18,12 @@ namespace mirrorball::detail {
 struct FaceFiles {
     Projection projection;  ///< cube or dual_paraboloid
     std::vector<std::filesystem::path> files;
-    std::string note;       ///< which names were found; empty where there was nothing to find
+    std::string note;  ///< which names were found; empty where there was nothing to find
 };
 
-/// Looks which of the naming schemes has all its files, of those that belong to `projection` if it is
-/// given. \throws Error(Errc::cannot_read) naming a file that is missing, or the schemes there are
+/// Looks which of the naming schemes has all its files, of those that belong to `projection` if it
+/// is given. \throws Error(Errc::cannot_read) naming a file that is missing, or the schemes there
+/// are
 [[nodiscard]] FaceFiles find_face_files(const std::string& pattern,
                                         std::optional<Projection> projection);
 

@@ -49,8 +49,7 @@ const Arrangement& arrangement(Layout layout) {
 }
 
 bool fits(const Arrangement& a, std::int64_t width, std::int64_t height) {
-    return width % a.columns == 0 && height % a.rows == 0 &&
-           width / a.columns == height / a.rows;
+    return width % a.columns == 0 && height % a.rows == 0 && width / a.columns == height / a.rows;
 }
 
 std::optional<Layout> layout_by_shape(Projection projection, int width, int height) {

@@ -37,11 +37,14 @@ TexelFaults row_faults(const Level& level, Projection projection, int face, int 
     return faults;
 }
 
-// The texels of a level as one list, face by face and row by row, and their neighbours across edges.
+// The texels of a level as one list, face by face and row by row, and their neighbours across
+// edges.
 class Neighbourhood {
   public:
     Neighbourhood(Projection projection, const Level& level)
-        : projection_(projection), width_(level.width()), height_(level.height()) {}
+        : projection_(projection),
+          width_(level.width()),
+          height_(level.height()) {}
 
     [[nodiscard]] std::int64_t index(const TexelPosition& t) const {
         return (std::int64_t{t.face} * height_ + t.y) * width_ + t.x;
@@ -73,17 +76,18 @@ class Neighbourhood {
 };
 
 // Grows the valid texels into the holes, one ring a turn. Each turn's means are taken before any of
-// them is written, so that no order of texels matters; each hole texel is visited a few times, however
-// large the hole.
+// them is written, so that no order of texels matters; each hole texel is visited a few times,
+// however large the hole.
 class HoleFiller {
   public:
     HoleFiller(Level& level, Projection projection)
-        : level_(level), neighbours_(projection, level),
+        : level_(level),
+          neighbours_(projection, level),
           states_(level.faces.size() * level.faces.front().texel_count(), State::valid) {
         const int width = level.width(), height = level.height();
-        const std::vector<double> used =
-            has_unused_texels(projection) ? solid_angle_table(projection, width, height)
-                                          : std::vector<double>();
+        const std::vector<double> used = has_unused_texels(projection)
+                                             ? solid_angle_table(projection, width, height)
+                                             : std::vector<double>();
         for (std::int64_t i = 0; i < std::int64_t(states_.size()); ++i) {
             const TexelPosition t = neighbours_.position(i);
             if (!used.empty() && used[std::int64_t{t.y} * width + t.x] == 0) {
@@ -97,8 +101,8 @@ class HoleFiller {
 
     std::int64_t fill() {
         std::int64_t filled_count = 0;
-        // Across an edge a texel may have a neighbour that has not it for its own, and be missed by the
-        // rings; then the rings start anew from what is left.
+        // Across an edge a texel may have a neighbour that has not it for its own, and be missed by
+        // the rings; then the rings start anew from what is left.
         for (std::vector<std::int64_t> ring = holes_; !ring.empty(); ring = remaining_holes()) {
             std::int64_t filled_now = 0;
             while (!ring.empty()) {

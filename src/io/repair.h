@@ -16,7 +16,7 @@ struct TexelFaults {
     std::int64_t non_finite_count = 0;
     TexelPosition first_non_finite{0, 0, 0};  ///< in the order of faces, then rows
     std::int64_t negative_count = 0;
-    float smallest = 0;                       ///< of the negative values
+    float smallest = 0;  ///< of the negative values
 };
 [[nodiscard]] TexelFaults find_faults(const Level& level, Projection projection);
 

@@ -1,5 +1,5 @@
-// Which texels of a face count, and for how much, one at a time: for the few texels that are odd, where
-// solid_angle_table() would be as large as the map.
+// Which texels of a face count, and for how much, one at a time: for the few texels that are odd,
+// where solid_angle_table() would be as large as the map.
 #pragma once
 
 #include <mirrorball/projection.h>
@@ -15,8 +15,9 @@ inline double texel_solid_angle(Projection projection, int width, int height, in
 
 /// Whether faces have unused texels: they have where the projection does not reach their corners.
 inline bool has_unused_texels(Projection projection) {
-    return visit(projection,
-                 [](auto p) { return !decltype(p)::covers(FacePoint<double>{0, 0.0, 0.0}); });
+    return visit(projection, [](auto p) {
+        return !decltype(p)::covers(FacePoint<double>{0, 0.0, 0.0});
+    });
 }
 
 }  // namespace mirrorball::detail
