@@ -211,7 +211,7 @@ namespace detail {
 
 std::span<const Codec* const> codecs() {
     static const std::vector<const Codec*> kTable = {
-        &kHdr,
+        &kHdr, &kPng, &kJpeg, &kTiff, &kPfm,
     };
     return kTable;
 }
