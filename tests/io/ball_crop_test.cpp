@@ -22,8 +22,8 @@ TEST(BallCrop, IsExactBetweenPixelsOfARamp) {
     Image picture(40, 30, 2);
     for (int y = 0; y < 30; ++y) {
         for (int x = 0; x < 40; ++x) {
-            picture.at(x, y)[0] = x + 0.5f;
-            picture.at(x, y)[1] = y + 0.5f;
+            picture.at(x, y)[0] = float(x) + 0.5f;
+            picture.at(x, y)[1] = float(y) + 0.5f;
         }
     }
     const CropCircle circle{17.3, 14.6, 9.2};

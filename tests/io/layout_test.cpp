@@ -112,8 +112,8 @@ TEST(Layout, CrossesContinueAcrossTheirFolds) {
                 const auto here = direction(a, x, y);
                 const auto right = direction(a, x + 1, y), below = direction(a, x, y + 1);
                 // the largest step between neighbours on one face is 2 / size, at its centre
-                if (here && right) EXPECT_LT((*here - *right).length(), 2.01 / size);
-                if (here && below) EXPECT_LT((*here - *below).length(), 2.01 / size);
+                if (here && right) { EXPECT_LT((*here - *right).length(), 2.01 / size); }
+                if (here && below) { EXPECT_LT((*here - *below).length(), 2.01 / size); }
                 pair_count += (here && right) + (here && below);
             }
         }
