@@ -18,7 +18,8 @@ TEST(BallCrop, CopiesPixelsWhereTheCircleLiesOnThem) {
 }
 
 TEST(BallCrop, IsExactBetweenPixelsOfARamp) {
-    // Linear interpolation has nothing to lose on a linear picture: the value at a point is the point.
+    // Linear interpolation has nothing to lose on a linear picture: the value at a point is the
+    // point.
     Image picture(40, 30, 2);
     for (int y = 0; y < 30; ++y) {
         for (int x = 0; x < 40; ++x) {
@@ -48,9 +49,9 @@ TEST(BallCrop, DoesNotSpreadWhatIsNoNumberOverPixelsItDoesNotTouch) {
 TEST(BallCrop, MayMissThePictureByAPixelAndNoMore) {
     EXPECT_NO_THROW(check_crop("ball.hdr", 100, 80, {40, 40, 40}));
     EXPECT_NO_THROW(check_crop("ball.hdr", 100, 80, {40, 40, 41}));
-    for (const CropCircle& circle : {CropCircle{40, 40, 41.5}, CropCircle{38, 40, 40},
-                                     CropCircle{62, 40, 40}, CropCircle{50, 1e9, 3},
-                                     CropCircle{50, 40, 1e300}}) {
+    for (const CropCircle& circle :
+         {CropCircle{40, 40, 41.5}, CropCircle{38, 40, 40}, CropCircle{62, 40, 40},
+          CropCircle{50, 1e9, 3}, CropCircle{50, 40, 1e300}}) {
         expect_error([&] { check_crop("ball.hdr", 100, 80, circle); }, Errc::usage,
                      {"ball.hdr", "leaves the picture", "100 x 80"});
     }

@@ -35,13 +35,13 @@ Image drawn(Layout layout) {
                                 0,  0, 14, 4, 0,  0, 0,  0,  //
                                 0,  0, 4,  4, 0,  0, 0,  0});
         case Layout::vertical_cross:
-            return drawn(6, 8, {0,  0, 13, 3,  0,  0,  //
-                                0,  0, 3,  3,  0,  0,  //
-                                12, 2, 15, 5,  11, 1,  //
-                                2,  2, 5,  5,  1,  1,  //
-                                0,  0, 14, 4,  0,  0,  //
-                                0,  0, 4,  4,  0,  0,  //
-                                0,  0, 6,  6,  0,  0,  // upside down: its top left is
+            return drawn(6, 8, {0,  0, 13, 3,  0,  0,    //
+                                0,  0, 3,  3,  0,  0,    //
+                                12, 2, 15, 5,  11, 1,    //
+                                2,  2, 5,  5,  1,  1,    //
+                                0,  0, 14, 4,  0,  0,    //
+                                0,  0, 4,  4,  0,  0,    //
+                                0,  0, 6,  6,  0,  0,    // upside down: its top left is
                                 0,  0, 6,  16, 0,  0});  // at the bottom right
         case Layout::horizontal_strip:
             return drawn(12, 2, {11, 1, 12, 2, 13, 3, 14, 4, 15, 5, 16, 6,  //
@@ -50,11 +50,13 @@ Image drawn(Layout layout) {
             return drawn(2, 12, {11, 1, 1, 1, 12, 2, 2, 2, 13, 3, 3, 3,  //
                                  14, 4, 4, 4, 15, 5, 5, 5, 16, 6, 6, 6});
         case Layout::side_by_side:
-            return drawn(4, 2, {11, 1, 12, 2,  //
-                                1,  1, 2,  2});
+            return drawn(4, 2,
+                         {11, 1, 12, 2,  //
+                          1, 1, 2, 2});
         default:
-            return drawn(4, 2, {11, 1, 2, 2,  //
-                                1,  1, 2, 12});
+            return drawn(4, 2,
+                         {11, 1, 2, 2,  //
+                          1, 1, 2, 12});
     }
 }
 
@@ -90,8 +92,8 @@ TEST(Layout, KeepsChannelsTogetherWhereFacesAreTurned) {
     expect_equal(cut_face(picture, a, 5), face);
 }
 
-// Neighbouring faces of a cross continue each other: that is what a cross is for. A texel of one and
-// the texel beside it in the picture look in nearly the same direction.
+// Neighbouring faces of a cross continue each other: that is what a cross is for. A texel of one
+// and the texel beside it in the picture look in nearly the same direction.
 TEST(Layout, CrossesContinueAcrossTheirFolds) {
     constexpr int size = 16;
     const auto direction = [](const Arrangement& a, int x, int y) -> std::optional<Vec3d> {
@@ -112,12 +114,17 @@ TEST(Layout, CrossesContinueAcrossTheirFolds) {
                 const auto here = direction(a, x, y);
                 const auto right = direction(a, x + 1, y), below = direction(a, x, y + 1);
                 // the largest step between neighbours on one face is 2 / size, at its centre
-                if (here && right) { EXPECT_LT((*here - *right).length(), 2.01 / size); }
-                if (here && below) { EXPECT_LT((*here - *below).length(), 2.01 / size); }
+                if (here && right) {
+                    EXPECT_LT((*here - *right).length(), 2.01 / size);
+                }
+                if (here && below) {
+                    EXPECT_LT((*here - *below).length(), 2.01 / size);
+                }
                 pair_count += (here && right) + (here && below);
             }
         }
-        EXPECT_EQ(pair_count, 6 * 2 * size * (size - 1) + 5 * size);  // a tree of six has five folds
+        EXPECT_EQ(pair_count,
+                  6 * 2 * size * (size - 1) + 5 * size);  // a tree of six has five folds
     }
 }
 

@@ -52,8 +52,11 @@ TEST(MapMetadata, SaysIrradianceWhereEveryLevelIsDiffuse) {
 
 TEST(MapMetadata, SaysWhatIsWrongWithAValue) {
     const auto expect_refused = [](const char* key, const char* value) {
-        expect_error([&] { (void)parse_words({{key, value}}, "sky.ktx2"); }, Errc::cannot_read,
-                     {"sky.ktx2", key});
+        expect_error(
+            [&] {
+                (void)parse_words({{key, value}}, "sky.ktx2");
+            },
+            Errc::cannot_read, {"sky.ktx2", key});
     };
     expect_refused("mirrorball.projection", "mercator");
     expect_refused("mirrorball.layout", "spiral");
@@ -66,12 +69,14 @@ TEST(MapMetadata, SaysWhatIsWrongWithAValue) {
 TEST(MapMetadata, RefusesLobesThatDoNotFit) {
     EnvironmentMap map = make_environment_map(Projection::cube, 1);
     expect_error(
-        [&] { apply_lobes(parse_words({{"mirrorball.lobes", "source,ggx:1"}}, "x"), map, "x"); },
+        [&] {
+            apply_lobes(parse_words({{"mirrorball.lobes", "source,ggx:1"}}, "x"), map, "x");
+        },
         Errc::cannot_read, {"mirrorball.lobes", "2 levels", "has 1"});
     const Metadata contradiction = {{"mirrorball.lobes", "ggx:1"},
                                     {"mirrorball.quantity", "irradiance"}};
-    expect_error([&] { apply_lobes(parse_words(contradiction, "x"), map, "x"); },
-                 Errc::cannot_read, {"mirrorball.quantity", "diffuse"});
+    expect_error([&] { apply_lobes(parse_words(contradiction, "x"), map, "x"); }, Errc::cannot_read,
+                 {"mirrorball.quantity", "diffuse"});
 }
 
 }  // namespace

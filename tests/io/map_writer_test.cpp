@@ -54,6 +54,11 @@ std::vector<Layout> layouts_of(Projection projection) {
     return {Layout::automatic, Layout::single};
 }
 
+/// OpenEXR's own cubes have their samples on the edges of faces: tests/io/edge_grid_test.cpp.
+bool is_resampled(const std::string& ending, Projection projection, Layout layout) {
+    return ending == ".exr" && projection == Projection::cube && layout == Layout::automatic;
+}
+
 /// A chain of levels; every one is filtered with another lobe but the first.
 EnvironmentMap chain(Projection projection, int size, int level_count) {
     EnvironmentMap map = numbered_map(projection, size);
@@ -85,6 +90,7 @@ TEST_F(MapWriter, EveryProjectionComesBackFromEveryLayout) {
             const auto projection = static_cast<Projection>(i);
             for (const Layout layout : layouts_of(projection)) {
                 SCOPED_TRACE(fmt::format("{} {} {}", ending, name(projection), name(layout)));
+                if (is_resampled(ending, projection, layout)) continue;
                 const EnvironmentMap map = small_map(projection);
                 const std::string file = path(std::string("map") + ending);
                 const WriteReport report =
@@ -122,7 +128,10 @@ TEST_F(MapWriter, FilesWithMetadataSayThemselvesWhatTheyAre) {
                 const LoadedMap loaded = read_map(file);
                 EXPECT_EQ(loaded.map.projection, projection);
                 EXPECT_EQ(loaded.map.axes, map.axes);
-                EXPECT_EQ(loaded.metadata.at("author"), "Ada");
+                if (ending != std::string(".hdr")) {  // which has no place for strange keys
+                    EXPECT_EQ(loaded.metadata.at("author"), "Ada");
+                }
+                if (is_resampled(ending, projection, layout)) continue;
                 expect_equal_levels(loaded.map, map);
             }
         }
@@ -287,9 +296,10 @@ TEST_F(MapWriter, KeepsEachChannelsOwnRange) {
 TEST_F(MapWriter, CountsNegativeTexelsWhereTheFormatHasNoSign) {
     EnvironmentMap map = make_environment_map(Projection::cube, 1);
     map.levels[0].faces[1].set_rgb(0, 0, {-2, 1, 0});
-    for (const auto& [file, format] :
-         {std::pair("a.hdr", TexelFormat::automatic), {"a.ktx2", TexelFormat::rgb9e5},
-          {"a.ktx2", TexelFormat::r11g11b10f}, {"a.png", TexelFormat::unorm16}}) {
+    for (const auto& [file, format] : {std::pair("a.hdr", TexelFormat::automatic),
+                                       {"a.ktx2", TexelFormat::rgb9e5},
+                                       {"a.ktx2", TexelFormat::r11g11b10f},
+                                       {"a.png", TexelFormat::unorm16}}) {
         SCOPED_TRACE(file);
         MapWriteOptions options;
         options.format = format;

@@ -35,14 +35,14 @@ TEST(TexelUse, AgreesWithTheTable) {
                 }
             }
         }
-        const bool round = std::count(std::begin(kRoundProjections), std::end(kRoundProjections),
-                                      projection) == 1;
+        const bool round =
+            std::count(std::begin(kRoundProjections), std::end(kRoundProjections), projection) == 1;
         EXPECT_EQ(has_unused_texels(projection), round) << name(projection);
     }
 }
 
-// A texel wholly outside the disc has no solid angle at all, not a sum's rounding: zero is how unused
-// texels are told.
+// A texel wholly outside the disc has no solid angle at all, not a sum's rounding: zero is how
+// unused texels are told.
 TEST(TexelUse, IsExactlyZeroOutsideTheDisc) {
     for (const Projection projection : kRoundProjections) {
         constexpr int size = 100;
@@ -157,7 +157,8 @@ TEST(Repair, LeavesGoodTexelsAsTheyAre) {
             for (int x = 0; x < 8; ++x) {
                 const bool repaired = face == 2 && y == 7 && x < 2;
                 if (repaired) continue;
-                EXPECT_EQ(map.levels[0].faces[face].rgb(x, y), before.levels[0].faces[face].rgb(x, y));
+                EXPECT_EQ(map.levels[0].faces[face].rgb(x, y),
+                          before.levels[0].faces[face].rgb(x, y));
             }
         }
     }
