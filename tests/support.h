@@ -1,5 +1,4 @@
-// What tests of files share: a folder that goes away, and the panoramas that lie beside the
-// repository.
+// What tests of files share: a folder that goes away, and the panoramas that lie beside the repository.
 #pragma once
 
 #include <cstdlib>

@@ -4,9 +4,9 @@
 // re-sample one grid to the other, of the same size, with 4 x 4 cubic polynomials that reach over
 // edges and poles, and hold the result between the smallest and largest texel that it is made of.
 //
-// There and back changes a map of low frequency by little: of a cube of 64 texels with the
-// harmonics of band 2 the root mean square error is below 1e-5 of the range, and falls with the
-// fourth power of the size (tests/io/edge_grid_test.cpp). What is sharper than a texel is blurred.
+// There and back changes a smooth map by little. Of harmonics to band 2 between 0.3 and 4, cube faces
+// of 64 texels keep all but a root mean square of 7e-6 (worst 7e-4, at the corners), an equirect of
+// 256 x 128 all but 3e-7 (tests/io/edge_grid_test.cpp). What is as sharp as a texel is blurred.
 #pragma once
 
 #include <vector>

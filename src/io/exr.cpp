@@ -307,13 +307,14 @@ std::vector<Image> read_levels(const InputFile& file, Imf::MultiPartInputFile& e
         return levels;
     }
     Imf::TiledInputPart part(exr, picture.part);
-    const int count = level_count(header, part);
-    for (int level = 0; level < count; ++level) {
+    // Also those that do not count, to find a file that was cut short.
+    for (int level = 0; level < part.numLevels(); ++level) {
         const Box2i window = part.dataWindowForLevel(level);
         Image& image = levels.emplace_back(make_image(window, picture));
         part.setFrameBuffer(frame_buffer(image, picture, window));
         part.readTiles(0, part.numXTiles(level) - 1, 0, part.numYTiles(level) - 1, level);
     }
+    levels.resize(level_count(header, part));
     return levels;
 }
 
