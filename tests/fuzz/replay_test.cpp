@@ -1,6 +1,8 @@
-// The fuzzers' seeds and all that they ever broke a decoder with, once more in every run of the tests.
+// The fuzzers' seeds and all that they ever broke a decoder with, once more in every run of the
+// tests.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -36,12 +38,13 @@ void decode_by_all(std::span<const std::byte> bytes) {
 }
 
 TEST(FuzzReplay, SeedsDecode) {
-    const int count = for_each_input("seeds", [](const fs::path& name, std::span<const std::byte> bytes) {
-        const bool decoded = std::any_of(codecs().begin(), codecs().end(), [&](const Codec* codec) {
-            return !decode_or_refuse(*codec, bytes);
+    const int count =
+        for_each_input("seeds", [](const fs::path& name, std::span<const std::byte> bytes) {
+            const bool decoded =
+                std::any_of(codecs().begin(), codecs().end(),
+                            [&](const Codec* codec) { return !decode_or_refuse(*codec, bytes); });
+            EXPECT_TRUE(decoded) << name << " reaches nothing behind the first check";
         });
-        EXPECT_TRUE(decoded) << name << " reaches nothing behind the first check";
-    });
     EXPECT_GT(count, 0) << "no seeds in tests/fuzz/seeds";
 }
 

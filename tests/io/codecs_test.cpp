@@ -1,5 +1,5 @@
-// What holds for every picture format: texels come back as they went in, where they belong, and what
-// a format cannot hold is clamped and counted. And what goes wrong is said in words.
+// What holds for every picture format: texels come back as they went in, where they belong, and
+// what a format cannot hold is clamped and counted. And what goes wrong is said in words.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,10 +49,6 @@ std::string describe(const Form& form) {
            std::to_string(form.channels) + " channels";
 }
 
-bool is_integer(TexelFormat format) {
-    return format == TexelFormat::unorm8 || format == TexelFormat::unorm16;
-}
-
 // A value that the format holds exactly, another one for each i (up to its number of codes).
 float exact_value(TexelFormat format, bool is_alpha, int i) {
     const double most = format == TexelFormat::unorm8 ? 255 : 65535;
@@ -63,9 +59,12 @@ float exact_value(TexelFormat format, bool is_alpha, int i) {
             return is_alpha ? encoded : detail::srgb_to_linear(encoded);
         }
         // The largest of three channels sets the exponent: 128..255 all share one.
-        case TexelFormat::rgbe8: return static_cast<float>(128 + i * 37 % 128);
-        case TexelFormat::rgba16f: return static_cast<float>(i * 37 % 2048 - 1024) / 64;
-        default: return std::sqrt(static_cast<float>(i + 1)) * (i % 2 == 0 ? 1e3f : -1e-3f);
+        case TexelFormat::rgbe8:
+            return static_cast<float>(128 + i * 37 % 128);
+        case TexelFormat::rgba16f:
+            return static_cast<float>(i * 37 % 2048 - 1024) / 64;
+        default:
+            return std::sqrt(static_cast<float>(i + 1)) * (i % 2 == 0 ? 1e3f : -1e-3f);
     }
 }
 
@@ -86,7 +85,8 @@ TEST(Codecs, EveryFormatGivesBackWhatItHolds) {
     for (const Form& form : forms())
         for (const auto& [width, height] : std::vector<std::pair<int, int>>{
                  {1, 1}, {7, 3}, {8, 5}, {1, 9}, {129, 70}, {300, 2}}) {
-            SCOPED_TRACE(describe(form) + " " + std::to_string(width) + "x" + std::to_string(height));
+            SCOPED_TRACE(describe(form) + " " + std::to_string(width) + "x" +
+                         std::to_string(height));
             const Image image = exact_image(form, width, height);
             const fs::path path = folder / ("a" + form.ending);
             for (const bool compress : {true, false}) {
@@ -142,7 +142,8 @@ TEST(Codecs, TransferIsTheUsersToChoose) {
     write_image(folder / "a.png", image, {TexelFormat::unorm16});
     const Image encoded = read_image(folder / "a.png", as_linear);
     for (int c = 0; c < 3; ++c)  // half a code of 16 bits
-        EXPECT_NEAR(encoded.at(0, 0)[c], detail::linear_to_srgb(image.at(0, 0)[c]), 0.5 / 65535 + 1e-7);
+        EXPECT_NEAR(encoded.at(0, 0)[c], detail::linear_to_srgb(image.at(0, 0)[c]),
+                    0.5 / 65535 + 1e-7);
 
     write_image(folder / "a.pfm", image);
     const FileContents decoded = read_file(folder / "a.pfm", as_srgb);
@@ -166,13 +167,12 @@ TEST(Codecs, WhatDoesNotFitIsClampedAndCounted) {
         int clipped;
         float most, least;
     };
-    for (const Case& c : std::vector<Case>{
-             {"a.png", TexelFormat::unorm8, 4, 1, 0},
-             {"a.tif", TexelFormat::unorm16, 4, 1, 0},
-             {"b.tif", TexelFormat::rgba16f, 2, 65504, -1},
-             {"c.tif", TexelFormat::rgba32f, 0, kInfinity, -1},
-             {"a.hdr", TexelFormat::rgbe8, 2, 0x1.fep126f, 0},
-             {"a.pfm", TexelFormat::automatic, 0, kInfinity, -1}}) {
+    for (const Case& c : std::vector<Case>{{"a.png", TexelFormat::unorm8, 4, 1, 0},
+                                           {"a.tif", TexelFormat::unorm16, 4, 1, 0},
+                                           {"b.tif", TexelFormat::rgba16f, 2, 65504, -1},
+                                           {"c.tif", TexelFormat::rgba32f, 0, kInfinity, -1},
+                                           {"a.hdr", TexelFormat::rgbe8, 2, 0x1.fep126f, 0},
+                                           {"a.pfm", TexelFormat::automatic, 0, kInfinity, -1}}) {
         SCOPED_TRACE(c.file);
         EXPECT_EQ(write_image(folder / c.file, image, {c.format}).clipped_texel_count, c.clipped);
         const Image back = read_image(folder / c.file);
@@ -199,10 +199,10 @@ TEST(Codecs, NamesRoundTrip) {
          {TexelFormat::automatic, TexelFormat::rgba32f, TexelFormat::rgba16f, TexelFormat::rgbe8,
           TexelFormat::rgb9e5, TexelFormat::r11g11b10f, TexelFormat::unorm16, TexelFormat::unorm8})
         EXPECT_EQ(parse_texel_format(name(format)), format);
-    for (const auto layout : {Layout::automatic, Layout::single, Layout::horizontal_cross,
-                              Layout::vertical_cross, Layout::horizontal_strip,
-                              Layout::vertical_strip, Layout::side_by_side,
-                              Layout::side_by_side_turned})
+    for (const auto layout :
+         {Layout::automatic, Layout::single, Layout::horizontal_cross, Layout::vertical_cross,
+          Layout::horizontal_strip, Layout::vertical_strip, Layout::side_by_side,
+          Layout::side_by_side_turned})
         EXPECT_EQ(parse_layout(name(layout)), layout);
     expect_error([] { (void)parse_texel_format("rgba8f"); }, Errc::usage, {"rgba8f", "rgba16f"});
     expect_error([] { (void)parse_layout("cross"); }, Errc::usage, {"cross", "vertical-cross"});
@@ -222,7 +222,8 @@ TEST(Codecs, RequestsThatAFormatCannotMeet) {
 
     Image bad(3, 2, 3);
     bad.at(1, 1)[2] = std::numeric_limits<float>::quiet_NaN();
-    expect_error([&] { write_image(folder / "a.hdr", bad); }, Errc::cannot_write, {"(1, 1)", "NaN"});
+    expect_error([&] { write_image(folder / "a.hdr", bad); }, Errc::cannot_write,
+                 {"(1, 1)", "NaN"});
     EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
@@ -260,7 +261,8 @@ TEST(Codecs, FailedWritesLeaveTheOldFile) {
     EXPECT_EQ(fs::file_size(folder / "good.tif"), size);
 }
 
-// Bad input -----------------------------------------------------------------------------------------
+// Bad input
+// -----------------------------------------------------------------------------------------
 
 void put(const fs::path& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
@@ -281,7 +283,8 @@ TEST(Codecs, FilesThatAreNoPictures) {
     expect_error([&] { (void)read_file(folder / "text.hdr"); }, Errc::cannot_read,
                  {"text.hdr", "no format", "PNG"});
     expect_error([&] { (void)read_file(folder / "short.png"); }, Errc::cannot_read, {"no format"});
-    expect_error([&] { (void)read_file(folder / "none.png"); }, Errc::cannot_read, {"No such file"});
+    expect_error([&] { (void)read_file(folder / "none.png"); }, Errc::cannot_read,
+                 {"No such file"});
 }
 
 // Every prefix of a file is refused, in words and at once.
@@ -374,9 +377,12 @@ TEST(Codecs, TheMemoryLimitIsKept) {
     }
 }
 
-// Another program's view ---------------------------------------------------------------------------
+// Another program's view
+// ---------------------------------------------------------------------------
 
-bool oiiotool_runs() { return std::system("oiiotool --version >/dev/null 2>&1") == 0; }
+bool oiiotool_runs() {
+    return std::system("oiiotool --version >/dev/null 2>&1") == 0;
+}
 
 // OpenImageIO sees the same texels in our files, and we see the same in its files.
 TEST(Codecs, AgreesWithOpenImageIO) {
@@ -384,7 +390,8 @@ TEST(Codecs, AgreesWithOpenImageIO) {
     const TemporaryFolder folder;
     Image image(64, 32, 3);
     int i = 0;
-    for (float& value : image.values()) value = std::exp2(static_cast<float>(i++ * 37 % 2000) / 100 - 10);
+    for (float& value : image.values())
+        value = std::exp2(static_cast<float>(i++ * 37 % 2000) / 100 - 10);
     const std::string out = (folder / "").string();
     write_image(folder / "truth.pfm", image);
     for (const char* file : {"a.hdr", "a.tif", "b.tif"}) {
@@ -397,11 +404,13 @@ TEST(Codecs, AgreesWithOpenImageIO) {
                                  "ours.pfm --fail 0 --warn 0 --diff >/dev/null 2>&1";
         EXPECT_EQ(std::system(same.c_str()), 0) << file;
 
-        const std::string convert = "oiiotool -q " + out + "truth.pfm -d " + (half ? "half" : "float") +
-                                    " -o " + out + "theirs" + (file + 1) + " >/dev/null 2>&1";
+        const std::string convert = "oiiotool -q " + out + "truth.pfm -d " +
+                                    (half ? "half" : "float") + " -o " + out + "theirs" +
+                                    (file + 1) + " >/dev/null 2>&1";
         ASSERT_EQ(std::system(convert.c_str()), 0) << file;
         const Image theirs = read_image(folder / ("theirs" + std::string(file + 1)));
-        // Half a unit in the last place of 8 bits when theirs rounds, a whole one when it truncates.
+        // Half a unit in the last place of 8 bits when theirs rounds, a whole one when it
+        // truncates.
         for (std::size_t v = 0; v < theirs.values().size(); v += 3) {
             const float* expected = &image.values()[v];
             const float largest = std::max({expected[0], expected[1], expected[2]});
@@ -415,8 +424,9 @@ TEST(Codecs, AgreesWithOpenImageIO) {
 TEST(Codecs, RealPanoramasSurvive) {
     for (const char* file : {"hdri/venice.hdr", "hdri/studio.hdr"}) {
         const auto path = shared_file(file);
-        if (!path) GTEST_SKIP() << "the shared panoramas are not here; EveryFormatGivesBackWhatItHolds "
-                                   "is the same test on generated pictures";
+        if (!path)
+            GTEST_SKIP() << "the shared panoramas are not here; EveryFormatGivesBackWhatItHolds "
+                            "is the same test on generated pictures";
         const TemporaryFolder folder;
         const Image image = read_image(*path);
         write_image(folder / "a.hdr", image);

@@ -34,7 +34,9 @@ std::size_t entry_count(const fs::path& folder) {
         std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
+std::span<const std::byte> bytes_of(const std::string& text) {
+    return std::as_bytes(std::span(text));
+}
 
 // Larger than any buffer, and different everywhere.
 std::string long_text(std::size_t size) {
@@ -172,7 +174,8 @@ TEST(OutputFile, RefusesTargetsThatCannotBe) {
     expect_error([&] { OutputFile(folder / "none/a"); }, Errc::cannot_write,
                  {"none/a", "No such file or directory"});
     expect_error([&] { OutputFile(folder / "file/a"); }, Errc::cannot_write, {"Not a directory"});
-    expect_error([&] { OutputFile(folder / "loop"); }, Errc::cannot_write, {"loop", "symbolic links"});
+    expect_error([&] { OutputFile(folder / "loop"); }, Errc::cannot_write,
+                 {"loop", "symbolic links"});
     EXPECT_EQ(entry_count(folder.path()), 2u);
 }
 
@@ -215,7 +218,8 @@ TEST(OutputFile, AFullDeviceIsAnErrorWithTheReason) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
     OutputFile file("/dev/full");
     file.write("text");
-    expect_error([&] { file.commit(); }, Errc::cannot_write, {"/dev/full", "No space left on device"});
+    expect_error([&] { file.commit(); }, Errc::cannot_write,
+                 {"/dev/full", "No space left on device"});
 }
 
 // A limit on the size of files stands for the full disk: write() fails half-way in the same manner.
@@ -261,7 +265,9 @@ TEST(OutputFile, KilledProcessesLeaveNothing) {
         ASSERT_TRUE(WIFSIGNALED(status) || WEXITSTATUS(status) == 1);
         EXPECT_EQ(get(folder / "a"), "old");
         // A file system without nameless files cannot help SIGKILL.
-        if (signal_number == SIGTERM) EXPECT_EQ(entry_count(folder.path()), 1u);
+        if (signal_number == SIGTERM) {
+            EXPECT_EQ(entry_count(folder.path()), 1u);
+        }
     }
 }
 

@@ -1,5 +1,5 @@
-// Radiance HDR beyond the round trips of codecs_test.cpp: the codings we do not write, orientations,
-// header lines, and every way for a file to be broken.
+// Radiance HDR beyond the round trips of codecs_test.cpp: the codings we do not write,
+// orientations, header lines, and every way for a file to be broken.
 #include "io/hdr.h"
 
 #include <gtest/gtest.h>
@@ -24,14 +24,18 @@ std::string text(std::initializer_list<int> bytes) {
 }
 
 // Mantissas at the exponent byte 136, which stands for 1.
-std::string texel(int r, int g, int b) { return text({r, g, b, 136}); }
+std::string texel(int r, int g, int b) {
+    return text({r, g, b, 136});
+}
 
 FileContents decode(const std::string& file) {
     InputFile input("test.hdr", std::as_bytes(std::span(file)));
     return read_contents(input, {});
 }
 
-Image decode_image(const std::string& file) { return decode(file).levels[0][0]; }
+Image decode_image(const std::string& file) {
+    return decode(file).levels[0][0];
+}
 
 void expect_refused(const std::string& file, std::initializer_list<std::string> words) {
     const auto begin = std::chrono::steady_clock::now();
@@ -100,8 +104,8 @@ TEST(Hdr, WritesTheBytesThatItRead) {
     }
 }
 
-// The largest channel keeps 8 bits, so no channel is off by more than 1/512 of it (half a unit in 256,
-// the largest mantissa being at least 128 of them). Carry to the next exponent included.
+// The largest channel keeps 8 bits, so no channel is off by more than 1/512 of it (half a unit in
+// 256, the largest mantissa being at least 128 of them). Carry to the next exponent included.
 TEST(Hdr, RoundsToTheNearest) {
     Image image(4096, 1, 3);
     for (int x = 0; x < image.width(); ++x) {
@@ -133,7 +137,8 @@ TEST(Hdr, RunsShrinkFlatPicturesAndNeverGrowOthers) {
     EXPECT_LT(encode(flat).size(), 4u * 4 * 20 + 200);
     Image noisy(1000, 4, 3);
     unsigned state = 1;
-    for (float& v : noisy.values()) v = static_cast<float>((state = state * 1664525 + 1013904223) >> 8);
+    for (float& v : noisy.values())
+        v = static_cast<float>((state = state * 1664525 + 1013904223) >> 8);
     // A count for every 128 bytes that are copied, and the scanline's marker.
     EXPECT_LE(encode(noisy).size(), 4u * (1000 * 4 + 4 * 8 + 4) + 200);
     expect_equal(decode_image(encode(flat)), flat);
@@ -186,10 +191,12 @@ TEST(Hdr, ExposureIsDividedOut) {
 
 TEST(Hdr, XyzBecomesRgb) {
     const std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n";
-    // D65's own XYZ (0.9505, 1, 1.089), times 128 and rounded to whole mantissas, is nearly neutral.
+    // D65's own XYZ (0.9505, 1, 1.089), times 128 and rounded to whole mantissas, is nearly
+    // neutral.
     const FileContents contents = decode(file + texel(122, 128, 139));
     const Vec3f rgb = contents.levels[0][0].rgb(0, 0);
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(rgb[c], 128, 2);  // half a unit, times the matrix's rows
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(rgb[c], 128, 2);  // half a unit, times the matrix's rows
     EXPECT_EQ(contents.notes.size(), 1u);
 }
 
@@ -243,11 +250,13 @@ TEST(Hdr, BrokenHeadersAreRefused) {
     expect_refused(magic + "FORMAT=32-bit_rle_rgbe\n", {"truncated", "header"});
     expect_refused(magic + "FORMAT=32-bit_rle_foo\n\n-Y 1 +X 1\n", {"32-bit_rle_foo", "expected"});
     expect_refused(magic + std::string(100'000, 'x'), {"line of over 65536 bytes"});
-    expect_refused(magic + [] {
-        std::string lines;
-        for (int i = 0; i < 20'000; ++i) lines += "A=1\n";
-        return lines;
-    }(), {"10000 lines"});
+    expect_refused(magic +
+                       [] {
+                           std::string lines;
+                           for (int i = 0; i < 20'000; ++i) lines += "A=1\n";
+                           return lines;
+                       }(),
+                   {"10000 lines"});
     for (const char* exposure : {"abc", "0", "-1", "inf", "nan", "", "1e999", "1 2"})
         expect_refused(magic + "EXPOSURE=" + exposure + "\n\n-Y 1 +X 1\n" + texel(128, 1, 1),
                        {"EXPOSURE", "expected"});
@@ -260,11 +269,11 @@ TEST(Hdr, BrokenSizesAreRefused) {
     for (const char* size : {"", "hello", "-Y 4", "-Y 4 +X", "-Y 4 +Y 4", "-Y 4 +X 4 5", "Y 4 X 4",
                              "-Z 4 +X 4", "4 4", "+X"})
         expect_refused(kHeader + size + "\n", {"has the size", "expected"});
-    for (const char* size : {"-Y four +X 4", "-Y 4.5 +X 4", "-Y 4 +X 99999999999999999999",
-                             "-Y 0x10 +X 4"})
+    for (const char* size :
+         {"-Y four +X 4", "-Y 4.5 +X 4", "-Y 4 +X 99999999999999999999", "-Y 0x10 +X 4"})
         expect_refused(kHeader + size + "\n", {"has the size", "whole numbers"});
-    for (const char* size : {"-Y 0 +X 4", "-Y 4 +X 0", "-Y -4 +X 4", "-Y 4 +X -4", "-Y 4 +X 2000000",
-                             "-Y 9223372036854775807 +X 4"})
+    for (const char* size : {"-Y 0 +X 4", "-Y 4 +X 0", "-Y -4 +X 4", "-Y 4 +X -4",
+                             "-Y 4 +X 2000000", "-Y 9223372036854775807 +X 4"})
         expect_refused(kHeader + size + "\n" + std::string(1000, 'x'), {"claims", "1 to 1048576"});
     for (const char* size : {"-Y 100000 +X 100000", "-Y 1000000 +X 1000000", "-Y 1 +X 1000000"})
         expect_refused(kHeader + size + "\n", {"truncated"});
@@ -285,7 +294,8 @@ TEST(Hdr, BrokenScanlinesAreRefused) {
     expect_refused(size8 + marker + text({0}) + padding, {"run of 0 texels"});
     expect_refused(size8 + marker + text({132, 1, 133, 1}) + padding, {"run of 5", "4 are left"});
     expect_refused(size8 + marker + run_of_8 + run_of_8 + run_of_8 + text({135}), {"truncated"});
-    expect_refused(size8 + marker + run_of_8 + run_of_8 + run_of_8 + text({8, 1, 2, 3}), {"truncated"});
+    expect_refused(size8 + marker + run_of_8 + run_of_8 + run_of_8 + text({8, 1, 2, 3}),
+                   {"truncated"});
     expect_refused(size8 + texel(128, 0, 0) + text({1, 1, 1, 8}), {"8 times", "7 are left"});
     expect_refused(size8 + text({1, 1, 1, 8}) + padding, {"none to repeat"});
     // Repeats of nothing, without end.

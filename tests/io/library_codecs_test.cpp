@@ -1,4 +1,5 @@
-// PNG, JPEG and TIFF in the forms that we read but do not write, made here by the libraries themselves.
+// PNG, JPEG and TIFF in the forms that we read but do not write, made here by the libraries
+// themselves.
 #include <png.h>
 #include <tiffio.h>
 
@@ -25,7 +26,9 @@ struct FileCloser {
 };
 using FilePointer = std::unique_ptr<std::FILE, FileCloser>;
 
-FilePointer open_file(const fs::path& path) { return FilePointer(std::fopen(path.c_str(), "wb")); }
+FilePointer open_file(const fs::path& path) {
+    return FilePointer(std::fopen(path.c_str(), "wb"));
+}
 
 float from_code(int code, int most = 255) {
     return detail::srgb_to_linear(static_cast<float>(static_cast<double>(code) / most));
@@ -142,7 +145,8 @@ void write_jpeg(const fs::path& path, J_COLOR_SPACE colours, int width, int heig
     jpeg_start_compress(&jpeg, TRUE);
     if (exif_orientation > 0) {
         // TIFF header, one entry: tag 0x0112, type SHORT, one of them.
-        std::string exif("Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0 \0\0\0\0\0\0", 32);
+        std::string exif("Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0 \0\0\0\0\0\0",
+                         32);
         exif[25] = static_cast<char>(exif_orientation);
         jpeg_write_marker(&jpeg, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(exif.data()),
                           static_cast<unsigned>(exif.size()));
@@ -186,7 +190,8 @@ TEST(Jpeg, ReadsGreyColourAndInks) {
     write_jpeg(folder / "cmyk.jpg", JCS_CMYK, 9, 5, cmyk);
     const FileContents inks = read_file(folder / "cmyk.jpg");
     ASSERT_EQ(inks.levels[0][0].channels(), 3);
-    for (int c = 0; c < 3; ++c) expect_code(inks.levels[0][0].at(0, 0)[c], std::array{128, 64, 0}[c]);
+    for (int c = 0; c < 3; ++c)
+        expect_code(inks.levels[0][0].at(0, 0)[c], std::array{128, 64, 0}[c]);
     EXPECT_EQ(inks.notes.size(), 2u);
 }
 
@@ -207,7 +212,8 @@ TEST(Jpeg, IsTurnedUprightByItsExif) {
         for (const int x : {0, 1})
             for (const int y : {0, 1}) {
                 const float corner = image.at(x * (image.width() - 1), y * (image.height() - 1))[0];
-                EXPECT_EQ(corner > 0.5f, x == right && y == bottom) << number << " " << x << " " << y;
+                EXPECT_EQ(corner > 0.5f, x == right && y == bottom)
+                    << number << " " << x << " " << y;
             }
         EXPECT_EQ(contents.notes.size(), number == 1 ? 1u : 2u);
     }
@@ -238,7 +244,8 @@ struct TiffForm {
 
 // Sample i (in the order of a contiguous picture) is sample(i), of type T.
 template <class T, class F>
-void write_tiff(const fs::path& path, const TiffForm& form, int width, int height, const F& sample) {
+void write_tiff(const fs::path& path, const TiffForm& form, int width, int height,
+                const F& sample) {
     TIFF* tiff = TIFFOpen(path.c_str(), form.mode);
     TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
     TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
@@ -271,12 +278,14 @@ void write_tiff(const fs::path& path, const TiffForm& form, int width, int heigh
                         for (int x = 0; x < tile && left + x < width; ++x)
                             for (int c = 0; c < together; ++c)
                                 data[(y * tile + x) * together + c] = at(left + x, top + y, c);
-                    TIFFWriteTile(tiff, data.data(), left, top, 0, static_cast<std::uint16_t>(plane));
+                    TIFFWriteTile(tiff, data.data(), left, top, 0,
+                                  static_cast<std::uint16_t>(plane));
                 }
         } else {
             for (int y = 0; y < height; ++y) {
                 std::vector<T> row(width * together);
-                for (int i = 0; i < width * together; ++i) row[i] = at(i / together, y, i % together);
+                for (int i = 0; i < width * together; ++i)
+                    row[i] = at(i / together, y, i % together);
                 TIFFWriteScanline(tiff, row.data(), y, static_cast<std::uint16_t>(plane));
             }
         }
@@ -351,8 +360,10 @@ TEST(Tiff, WhatIsNotReadIsNamed) {
     refused({32, SAMPLEFORMAT_UINT, 3, false, false}, {"a.tif", "32 bits", "expected"});
     refused({16, SAMPLEFORMAT_INT, 3, false, false}, {"16 bits", "format 2"});
     refused({8, SAMPLEFORMAT_UINT, 5, false, false}, {"5 channels", "3 to 4"});
-    refused({8, SAMPLEFORMAT_UINT, 4, false, false, PHOTOMETRIC_SEPARATED}, {"kind 5", "grey or RGB"});
-    refused({8, SAMPLEFORMAT_UINT, 1, false, false, PHOTOMETRIC_PALETTE}, {"kind 3", "grey or RGB"});
+    refused({8, SAMPLEFORMAT_UINT, 4, false, false, PHOTOMETRIC_SEPARATED},
+            {"kind 5", "grey or RGB"});
+    refused({8, SAMPLEFORMAT_UINT, 1, false, false, PHOTOMETRIC_PALETTE},
+            {"kind 3", "grey or RGB"});
 }
 
 }  // namespace
