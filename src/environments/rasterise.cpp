@@ -89,7 +89,7 @@ class Rasteriser {
     // bound (a sphere map's rim) the texel's solid angle bounds how many that can take.
     [[nodiscard]] Grid grid(int face, int x, int y) const {
         const FacePoint<double> centre{face, (x + 0.5) / width_, (y + 0.5) / height_};
-        const Tangents<double> tangents = P::tangents(centre);
+        const Tangents<double> tangents = P::tangents(centre, P::direction(centre));
         const double detail = environment_.detail();
         double s = std::max(1.0, tangents.ds.length() / (width_ * detail));
         double t = std::max(1.0, tangents.dt.length() / (height_ * detail));
