@@ -167,7 +167,10 @@ class Rasteriser {
             const int side = sides_[first + x];
             if (side == 0) continue;
             const Grid before = grid(face, x, y);
-            const Grid after{std::max(before.s, side), std::max(before.t, side)};
+            // Coarse texels have many samples already, and more in them to miss.
+            const int factor = side == kStrongSide ? 2 : 1;
+            const Grid after{std::max(before.s * std::min(factor, before.s), side),
+                             std::max(before.t * std::min(factor, before.t), side)};
             if (after.s > before.s || after.t > before.t)
                 faces_[face].set_rgb(x, y, Vec3f(mean(face, x, y, after)));
         }
