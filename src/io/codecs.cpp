@@ -211,7 +211,7 @@ namespace detail {
 
 std::span<const Codec* const> codecs() {
     static const std::vector<const Codec*> kTable = {
-        &kHdr, &kPng, &kJpeg, &kTiff, &kPfm,
+        &kHdr, &kExr, &kPng, &kJpeg, &kTiff, &kKtx2, &kDds, &kPfm,
     };
     return kTable;
 }

@@ -236,9 +236,9 @@ void write(OutputFile& file, const FileContents& contents, const WriteOptions& o
     const Image& image = contents.levels.front().front();
     PngWriter writer(file);
     if (options.format == TexelFormat::unorm16)
-        writer.write<std::uint16_t>(image, options.compress);
+        writer.write<std::uint16_t>(image, options.compress.value_or(true));
     else
-        writer.write<std::uint8_t>(image, options.compress);
+        writer.write<std::uint8_t>(image, options.compress.value_or(true));
 }
 
 }  // namespace

@@ -469,7 +469,9 @@ FileContents read(InputFile& file, const ReadOptions& options) {
 }
 
 void write(OutputFile& file, const FileContents& contents, const WriteOptions& options) {
-    TiffWriter(file, contents.levels.front().front(), options.format, options.compress).write();
+    TiffWriter(file, contents.levels.front().front(), options.format,
+               options.compress.value_or(true))
+        .write();
 }
 
 }  // namespace

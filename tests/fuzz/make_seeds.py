@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Writes the small files in seeds/hdr and seeds/pfm that the fuzzers start from.
+"""Writes the small files in seeds that the fuzzers start from.
 
 One for each way that the decoders can take: codings, orientations, header lines, byte orders.
 """
+import math
 import struct
 from pathlib import Path
 
@@ -44,3 +45,56 @@ for name, header, order, count in [
     ("one_line", b"Pf 1 1 -2.5\n", "<", 1),
 ]:
     write(f"pfm/{name}.pfm", header + struct.pack(f"{order}{count}f", *(i / 4 for i in range(count))))
+
+
+def dds(dxgi, texel_bytes, faces, levels, code=b"DX10"):
+    size = 1 << (levels - 1)
+    caps2 = 0xFE00 if faces == 6 else 0
+    header = struct.pack("<4s7I44x", b"DDS ", 124, 0x2100F, size, size, size * texel_bytes, 0, levels)
+    header += struct.pack("<II4s20x", 32, 4, code) + struct.pack("<5I", 0x401008, caps2, 0, 0, 0)
+    if code == b"DX10":
+        header += struct.pack("<5I", dxgi, 3, 4 if faces == 6 else 0, 1, 0)
+    texels = faces * sum(4 ** level for level in range(levels))
+    return header + bytes(i * 7 & 63 for i in range(texels * texel_bytes))
+
+
+write("dds/half_cube.dds", dds(10, 8, 6, 2))
+write("dds/float.dds", dds(2, 16, 1, 2))
+write("dds/float_rgb.dds", dds(6, 12, 1, 1))
+write("dds/r11g11b10.dds", dds(26, 4, 6, 1))
+write("dds/rgb9e5.dds", dds(67, 4, 1, 3))
+write("dds/srgb.dds", dds(29, 4, 1, 1))
+write("dds/legacy_cube.dds", dds(0, 8, 6, 2, struct.pack("<I", 113)))
+
+
+def zstandard(data):  # one frame of one stored block
+    return struct.pack("<IBB", 0xFD2FB528, 0x20, len(data)) + struct.pack("<I", 1 | len(data) << 3)[:3] + data
+
+
+def ktx2(vk_format, type_size, texel_bytes, faces, levels, pack=None, orientation=b"rd"):
+    size = 1 << (levels - 1)
+    descriptor = struct.pack("<IIHHBBBB4x8B", 28, 0, 2, 24, 1, 1, 1, 0, texel_bytes, *[0] * 7)
+    pair = b"KTXorientation\0" + orientation + b"\0"
+    keys = struct.pack("<I", len(pair)) + pair
+    keys += bytes(-len(keys) % 4)
+    offset = 80 + 24 * levels
+    header = bytes.fromhex("AB4B5458203230BB0D0A1A0A")
+    header += struct.pack("<9I", vk_format, type_size, size, size, 0, 0, faces, levels, 2 if pack else 0)
+    header += struct.pack("<4IQQ", offset, 28, offset + 28, len(keys), 0, 0)
+    body, index = descriptor + keys, []
+    for level in range(levels):  # smallest first
+        data = bytes(i * 7 & 63 for i in range(faces * texel_bytes * 4**level))
+        stored = pack(data) if pack else data
+        if not pack:
+            body += bytes(-(offset + len(body)) % math.lcm(texel_bytes, 4))
+        index.insert(0, struct.pack("<3Q", offset + len(body), len(stored), len(data)))
+        body += stored
+    return header + b"".join(index) + body
+
+
+write("ktx2/half_cube.ktx2", ktx2(97, 2, 8, 6, 2))
+write("ktx2/float.ktx2", ktx2(109, 4, 16, 1, 2))
+write("ktx2/half_rgb_upward.ktx2", ktx2(90, 2, 6, 1, 2, orientation=b"ru"))
+write("ktx2/rgb9e5_zstandard.ktx2", ktx2(123, 4, 4, 6, 2, zstandard))
+write("ktx2/b10g11r11.ktx2", ktx2(122, 4, 4, 1, 3))
+write("ktx2/srgb.ktx2", ktx2(43, 1, 4, 1, 1))

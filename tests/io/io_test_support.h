@@ -10,8 +10,8 @@
 
 namespace mirrorball {
 
-/// A different value in every channel of every texel, all of them whole numbers from 1 up that a half
-/// and an RGBE hold exactly (below 2048 and 256) as long as there are no more of them.
+/// A different value in every channel of every texel, all of them whole numbers from 1 up that a
+/// half and an RGBE hold exactly (below 2048 and 256) as long as there are no more of them.
 inline Image numbered_image(int width, int height, float first = 1, int channels = 3) {
     Image image(width, height, channels);
     float value = first;
