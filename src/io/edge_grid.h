@@ -4,9 +4,10 @@
 // re-sample one grid to the other, of the same size, with 4 x 4 cubic polynomials that reach over
 // edges and poles, and hold the result between the smallest and largest texel that it is made of.
 //
-// There and back changes a smooth map by little. Of harmonics to band 2 between 0.3 and 4, cube faces
-// of 64 texels keep all but a root mean square of 7e-6 (worst 7e-4, at the corners), an equirect of
-// 256 x 128 all but 3e-7 (tests/io/edge_grid_test.cpp). What is as sharp as a texel is blurred.
+// There and back changes a smooth map by little. Of harmonics to band 2 between 0.3 and 4, cube
+// faces of 64 texels keep all but a root mean square of 7e-6 (worst 7e-4, at the corners), an
+// equirect of 256 x 128 all but 3e-7 (tests/io/edge_grid_test.cpp). What is as sharp as a texel is
+// blurred.
 #pragma once
 
 #include <vector>

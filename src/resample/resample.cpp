@@ -24,12 +24,12 @@ using detail::Rgbx;
 
 // An edge longer than this many source texels is cut; so is one that crosses this many the other way.
 constexpr double kLongestEdge = 4;
-constexpr double kMostSkew = 0.25;
+constexpr double kMostSkew = 0.5;
 // Below this many source texels per edge of the target the interpolation is seen, not the average.
 constexpr double kMagnified = 0.5;
 // Near a pole of the source its texels become slivers, and cells cut for their short side everywhere
 // would be many more than there are texels: this many at most.
-constexpr double kMostCellsPerSourceTexel = 16;
+constexpr double kMostCellsPerSourceTexel = 4;
 // A texel on the rim is cut so that the rim's course through it is seen.
 constexpr int kRimCells = 16;
 

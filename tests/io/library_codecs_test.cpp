@@ -351,21 +351,42 @@ TEST(Tiff, IsTurnedUpright) {
               (std::vector<float>{4, 1, 5, 2, 6, 3}));
 }
 
+// A directory by hand, since libtiff does not write sizes that it does not believe.
+std::string tiff_that_claims(std::uint32_t width, std::uint32_t height, int compression) {
+    const std::vector<std::array<std::uint32_t, 3>> entries{
+        // tag, type (3: 16 bits, 4: 32 bits), value
+        {TIFFTAG_IMAGEWIDTH, 4, width},
+        {TIFFTAG_IMAGELENGTH, 4, height},
+        {TIFFTAG_BITSPERSAMPLE, 3, 32},
+        {TIFFTAG_COMPRESSION, 3, std::uint32_t(compression)},
+        {TIFFTAG_PHOTOMETRIC, 3, PHOTOMETRIC_MINISBLACK},
+        {TIFFTAG_STRIPOFFSETS, 4, 8},
+        {TIFFTAG_SAMPLESPERPIXEL, 3, 1},
+        {TIFFTAG_ROWSPERSTRIP, 4, height},
+        {TIFFTAG_STRIPBYTECOUNTS, 4, 16},
+        {TIFFTAG_SAMPLEFORMAT, 3, SAMPLEFORMAT_IEEEFP}};
+    std::string file("II*\0\x08\0\0\0", 8);
+    const auto append = [&](std::uint32_t value, int bytes) {
+        for (int i = 0; i < bytes; ++i) file.push_back(static_cast<char>(value >> 8 * i));
+    };
+    append(static_cast<std::uint32_t>(entries.size()), 2);
+    for (const auto& [tag, type, value] : entries) {
+        append(tag, 2);
+        append(type, 2);
+        append(1, 4);
+        append(value, 4);
+    }
+    append(0, 4);
+    return file;
+}
+
 TEST(Tiff, WildClaimsAreRefused) {
-    const TemporaryFolder folder;
     for (const int compression : {COMPRESSION_NONE, COMPRESSION_ADOBE_DEFLATE}) {
-        TiffForm form{32, SAMPLEFORMAT_IEEEFP, 3, false, false};
-        form.compression = compression;
-        const auto claim = [&](int width, int height) {
-            return [&, width, height] {
-                write_tiff<float>(folder / "a.tif", form, width, 0, [](int) { return 0; });
-                TIFFSetErrorHandler(nullptr);  // what libtiff says of its own file is no matter
-                TIFF* tiff = TIFFOpen((folder / "a.tif").c_str(), "r+");
-                TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
-                TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
-                TIFFRewriteDirectory(tiff);
-                TIFFClose(tiff);
-                (void)read_file(folder / "a.tif");
+        const auto claim = [&](std::uint32_t width, std::uint32_t height) {
+            return [=] {
+                const std::string bytes = tiff_that_claims(width, height, compression);
+                detail::InputFile file("a.tif", std::as_bytes(std::span(bytes)));
+                (void)detail::read_contents(file, {});
             };
         };
         expect_error(claim(100'000, 100'000), Errc::cannot_read, {"truncated", "100000 x 100000"});
@@ -385,8 +406,8 @@ TEST(Tiff, WhatIsNotReadIsNamed) {
     refused({8, SAMPLEFORMAT_UINT, 5, false, false}, {"5 channels", "3 to 4"});
     refused({8, SAMPLEFORMAT_UINT, 4, false, false, PHOTOMETRIC_SEPARATED},
             {"kind 5", "grey or RGB"});
-    refused({8, SAMPLEFORMAT_UINT, 1, false, false, PHOTOMETRIC_PALETTE},
-            {"kind 3", "grey or RGB"});
+    refused({8, SAMPLEFORMAT_UINT, 3, false, false, PHOTOMETRIC_CIELAB},
+            {"kind 8", "grey or RGB"});
 }
 
 }  // namespace
