@@ -167,11 +167,9 @@ class Rasteriser {
             const int side = sides_[first + x];
             if (side == 0) continue;
             const Grid before = grid(face, x, y);
-            // Coarse texels have many samples already, and more in them to miss.
-            const int factor = side == kStrongSide ? 2 : 1;
-            const Grid after{std::max(before.s * std::min(factor, before.s), side),
-                             std::max(before.t * std::min(factor, before.t), side)};
-            if (after.s > before.s || after.t > before.t)
+            const Grid after{std::max(before.s, side), std::max(before.t, side)};
+            // Coarse texels have many samples already: a few more are not worth all of them again.
+            if (after.s * after.t >= 2 * before.s * before.t)
                 faces_[face].set_rgb(x, y, Vec3f(mean(face, x, y, after)));
         }
     }

@@ -19,7 +19,7 @@
 namespace mirrorball::detail {
 namespace {
 
-constexpr double kDetail = 0.28 * kPi / 180;
+constexpr double kDetail = 0.25 * kPi / 180;
 
 const AtmosphereSettings kAir{.sun_elevation = 2.4 * kPi / 180,
                               .sun_azimuth = 24 * kPi / 180,

@@ -142,16 +142,23 @@ TEST_P(EachBuiltin, IsFiniteNotNegativeAndLitEverywhere) {
     }
 }
 
+// Against the mean of all: none of them is the truth, each samples in its own places.
+Vec3d mean_flux(const std::string& name) {
+    Vec3d sum(0);
+    for (const Projection projection : kProjections) sum += flux(map_of(name, projection));
+    return sum / static_cast<double>(kProjections.size());
+}
+
 TEST_P(EachBuiltin, KeepsItsFluxInEveryProjection) {
-    const Vec3d reference = flux(map_of(GetParam(), Projection::cube));
+    const Vec3d reference = mean_flux(GetParam());
     for (const Projection projection : kProjections)
         EXPECT_LT(relative_difference(flux(map_of(GetParam(), projection)), reference), 1e-3)
             << name(projection);
 }
 
 TEST_P(EachBuiltin, KeepsItsFluxAtEverySize) {
-    const Vec3d reference = flux(map_of(GetParam(), Projection::cube));
-    for (const int width : {2, 18, 512})
+    const Vec3d reference = mean_flux(GetParam());
+    for (const int width : {2, 512})
         EXPECT_LT(
             relative_difference(flux(make(GetParam(), Projection::equirect, width)), reference),
             1e-3)
@@ -162,19 +169,26 @@ TEST_P(EachBuiltin, KeepsItsFluxAtEverySize) {
 }
 
 // At a size where the sun fills texels.
-TEST_P(EachBuiltin, FitsHalfFloats) {
-    const LevelStatistics s = statistics(make(GetParam(), Projection::equirect, 1024));
-    EXPECT_LT(std::max({s.maximum.x, s.maximum.y, s.maximum.z}), 65504);
+TEST(BuiltinSun, FitsHalfFloats) {
+    for (const char* name : {"sunset", "noon"}) {
+        const LevelStatistics s = statistics(make(name, Projection::equirect, 1024));
+        EXPECT_GT(s.maximum.x, 10'000) << name;
+        EXPECT_LT(std::max({s.maximum.x, s.maximum.y, s.maximum.z}), 65504) << name;
+    }
 }
 
-TEST_P(EachBuiltin, HasTheSameBitsAtAnyThreadCount) {
-    std::vector<EnvironmentMap> maps;
-    for (const std::size_t threads : {1, 2, 3}) {
-        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        maps.push_back(make(GetParam(), Projection::dual_paraboloid, 48));
+// One with all that a sky has, and a chart.
+TEST(Builtin, HasTheSameBitsAtAnyThreadCount) {
+    for (const char* name : {"sunset", "axes"}) {
+        std::vector<EnvironmentMap> maps;
+        for (const std::size_t threads : {1, 2, 3}) {
+            const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                              threads);
+            maps.push_back(make(name, Projection::dual_paraboloid, 48));
+        }
+        EXPECT_TRUE(same_bits(maps[0], maps[1])) << name;
+        EXPECT_TRUE(same_bits(maps[0], maps[2])) << name;
     }
-    EXPECT_TRUE(same_bits(maps[0], maps[1]));
-    EXPECT_TRUE(same_bits(maps[0], maps[2]));
 }
 
 // What is drawn is the world: a map in another frame has other texels but shows the same in every
