@@ -13,8 +13,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 
 #include "core/parallel.h"
+#include "core/vectorized.h"
 #include "resample/sampler.h"
 
 namespace mirrorball {
@@ -26,30 +28,55 @@ using detail::Rgbx;
 constexpr double kLongestEdge = 4;
 constexpr double kMostSkew = 0.5;
 // Below this many source texels per edge of the target the interpolation is seen, not the average.
-constexpr double kMagnified = 0.5;
+constexpr double kMagnified = 0.35;
 // Near a pole of the source its texels become slivers, and cells cut for their short side everywhere
 // would be many more than there are texels: this many at most.
 constexpr double kMostCellsPerSourceTexel = 4;
 // A texel on the rim is cut so that the rim's course through it is seen.
 constexpr int kRimCells = 16;
 
-// A texel of the target, or a cell of one, in the source's frame; edges are differences of direction.
-struct Patch {
-    Vec3d centre, edge_s, edge_t;
-    double solid_angle;  // up to a factor common to a texel's cells
+constexpr int kBlock = 64;  // texels or cells that are worked out together, in vector code
+
+// Texels of the target, or cells of one, as the source sees them: where their centres lie on the
+// sphere, and their two edges as differences of direction.
+struct Patches {
+    struct Vectors {
+        double x[kBlock], y[kBlock], z[kBlock];
+
+        void set(int i, const Vec3d& v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
+        [[nodiscard]] Vec3d operator[](int i) const { return {x[i], y[i], z[i]}; }
+    };
+    int count = 0;
+    Vectors centre, edge_s, edge_t;
+    double solid_angle[kBlock];  // cells': up to a factor common to a texel's
+    int owner[kBlock];           // cells': the texel that they belong to, by its place in its block
 };
 
 struct Grid {
     int along_s = 1, along_t = 1;
-    [[nodiscard]] bool cut() const { return along_s > 1 || along_t > 1; }
+    [[nodiscard]] int cell_count() const { return along_s * along_t; }
 };
 
-// What a patch is to the source: where it lies, how many source texels its two edges together reach
-// along s and along t, and into how many cells it should be cut to be boxes.
-struct Footprint {
-    FacePoint<double> centre;
-    double width, height;
-    Grid grid;
+// What patches are to the source: where their centres lie, how many source texels their edges
+// together reach along s and along t, and how often each edge should be cut to make boxes of them.
+struct Footprints {
+    int face[kBlock];
+    double s[kBlock], t[kBlock];
+    double width[kBlock], height[kBlock];
+    double cuts_s[kBlock], cuts_t[kBlock];
+    double area[kBlock];  // in source texels
+
+    // The cells to cut patch i into.
+    [[nodiscard]] Grid grid(int i) const {
+        double along_s = std::max(1.0, cuts_s[i]), along_t = std::max(1.0, cuts_t[i]);
+        const double most = kMostCellsPerSourceTexel * std::max(1.0, area[i]);
+        const double excess = std::sqrt(along_s * along_t / most);
+        if (excess > 1) {
+            along_s = std::max(1.0, along_s / excess);
+            along_t = std::max(1.0, along_t / excess);
+        }
+        return {static_cast<int>(std::ceil(along_s)), static_cast<int>(std::ceil(along_t))};
+    }
 };
 
 // The target's half ---------------------------------------------------------------------------------
@@ -57,11 +84,15 @@ struct Footprint {
 class Target {
   public:
     virtual ~Target() = default;
-    virtual Patch texel(int face, int x, int y) const = 0;
+    // `count` texels of a row, from x on.
+    virtual void texels(int face, int x, int y, int count, Patches& out) const = 0;
     // Is it entirely in the used part?
     virtual bool whole(int face, int x, int y) const = 0;
-    // The used cells of a texel; at least one.
-    virtual void cells(int face, int x, int y, Grid grid, std::vector<Patch>& out) const = 0;
+    // Appends the used ones among the cells of a texel, from number `first` on, until the block is
+    // full; the number to go on from.
+    virtual int cells(int face, int x, int y, Grid grid, int first, int owner, Patches& out) const = 0;
+    // For a sliver that the rim cut off between all cells' centres: the place across the rim.
+    virtual void across_rim(int face, int x, int y, int owner, Patches& out) const = 0;
 };
 
 template <class P>
@@ -71,8 +102,20 @@ class TargetOf final : public Target {
     TargetOf(int width, int height, const Axes& target_to_source)
         : width_(width), height_(height), to_source_(target_to_source) {}
 
-    Patch texel(int face, int x, int y) const override {
-        return patch(point(face, x, y, 0.5, 0.5), {});
+    void texels(int face, int x, int y, int count, Patches& __restrict out) const override {
+        out.count = count;
+        const Axes to_source = to_source_;
+        const double width = width_, height = height_;
+        detail::vectorized([&]() MIRRORBALL_INLINE_BODY {
+            for (int i = 0, n = count; i < n; ++i) {
+                const FacePoint<double> p{face, (x + i + 0.5) / width, (y + 0.5) / height};
+                const Vec3d centre = P::direction(p);
+                const Tangents<double> tangents = P::tangents(p, centre);
+                out.centre.set(i, to_source.to_world(centre));
+                out.edge_s.set(i, to_source.to_world(tangents.ds / width));
+                out.edge_t.set(i, to_source.to_world(tangents.dt / height));
+            }
+        });
     }
 
     bool whole(int face, int x, int y) const override {
@@ -81,30 +124,34 @@ class TargetOf final : public Target {
                P::covers(point(face, x, y, 0, 1)) && P::covers(point(face, x, y, 1, 1));
     }
 
-    void cells(int face, int x, int y, Grid grid, std::vector<Patch>& out) const override {
-        out.clear();
-        for (int j = 0; j < grid.along_t; ++j) {
-            for (int i = 0; i < grid.along_s; ++i) {
-                const FacePoint<double> p =
-                    point(face, x, y, (i + 0.5) / grid.along_s, (j + 0.5) / grid.along_t);
-                if (P::covers(p)) out.push_back(patch(p, grid));
-            }
+    int cells(int face, int x, int y, Grid grid, int first, int owner, Patches& out) const override {
+        int next = first;
+        for (; next < grid.cell_count() && out.count < kBlock; ++next) {
+            const int i = next % grid.along_s, j = next / grid.along_s;
+            const FacePoint<double> p =
+                point(face, x, y, (i + 0.5) / grid.along_s, (j + 0.5) / grid.along_t);
+            if (P::covers(p)) append(out, p, grid, owner);
         }
-        // a sliver that the rim cut off between the cells' centres
-        if (out.empty()) out.push_back(patch(P::wrap(point(face, x, y, 0.5, 0.5)), grid));
+        return next;
+    }
+
+    void across_rim(int face, int x, int y, int owner, Patches& out) const override {
+        append(out, P::wrap(point(face, x, y, 0.5, 0.5)), {kRimCells, kRimCells}, owner);
     }
 
   private:
     FacePoint<double> point(int face, int x, int y, double fx, double fy) const {
         return {face, (x + fx) / width_, (y + fy) / height_};
     }
-    Patch patch(const FacePoint<double>& p, Grid grid) const {
+    void append(Patches& out, const FacePoint<double>& p, Grid grid, int owner) const {
         const Vec3d centre = P::direction(p);
         const Tangents<double> tangents = P::tangents(p, centre);
-        return {to_source_.to_world(centre),
-                to_source_.to_world(tangents.ds / (static_cast<double>(width_) * grid.along_s)),
-                to_source_.to_world(tangents.dt / (static_cast<double>(height_) * grid.along_t)),
-                P::density(p)};
+        const int i = out.count++;
+        out.centre.set(i, to_source_.to_world(centre));
+        out.edge_s.set(i, to_source_.to_world(tangents.ds / (1.0 * width_ * grid.along_s)));
+        out.edge_t.set(i, to_source_.to_world(tangents.dt / (1.0 * height_ * grid.along_t)));
+        out.solid_angle[i] = P::density(p);
+        out.owner[i] = owner;
     }
 
     int width_, height_;
@@ -116,8 +163,9 @@ class TargetOf final : public Target {
 class Source {
   public:
     virtual ~Source() = default;
-    virtual Footprint footprint(const Patch& patch) const = 0;
-    virtual Rgbx value(const Footprint& footprint) const = 0;
+    virtual void footprints(const Patches& patches, Footprints& out) const = 0;
+    // The mean over each of the first `count` patches as one box.
+    virtual void values(const Footprints& footprints, int count, Rgbx* out) const = 0;
 };
 
 template <class P>
@@ -126,53 +174,59 @@ class SourceOf final : public Source {
     SourceOf(const Level& level, Interpolation interpolation)
         : sampler_(level), bicubic_(interpolation == Interpolation::bicubic) {}
 
-    Footprint footprint(const Patch& patch) const override {
-        const FacePoint<double> p = P::project(patch.centre);
-        const Tangents<double> tangents = P::tangents(p, patch.centre);
-        const Vec3d texel_s = tangents.ds / sampler_.width(), texel_t = tangents.dt / sampler_.height();
-        // edge = u texel_s + v texel_t, from its dot products with both
-        const double ss = texel_s.dot(texel_s), st = texel_s.dot(texel_t), tt = texel_t.dot(texel_t);
-        const double determinant = std::max(ss * tt - st * st, 1e-12 * tt * tt);
-        const double inverse = 1 / determinant;
-        const auto in_texels = [&](const Vec3d& edge) {
-            const double s = edge.dot(texel_s), t = edge.dot(texel_t);
-            return Reach{std::min(std::abs(tt * s - st * t) * inverse, 1.0 * sampler_.width()),
-                         std::min(std::abs(ss * t - st * s) * inverse, 1.0 * sampler_.height())};
-        };
-        const Reach s = in_texels(patch.edge_s), t = in_texels(patch.edge_t);
-        Footprint f{p, s.s + t.s, s.t + t.t, {}};
-        if (s.cuts() > 1 || t.cuts() > 1) {
-            const double area = patch.edge_s.cross(patch.edge_t).length() / std::sqrt(determinant);
-            f.grid = grid_of(s.cuts(), t.cuts(), area);
-        }
-        return f;
+    void footprints(const Patches& patches, Footprints& __restrict out) const override {
+        const int count = patches.count;
+        const double width = sampler_.width(), height = sampler_.height();
+        detail::vectorized([&]() MIRRORBALL_INLINE_BODY {
+            for (int i = 0, n = count; i < n; ++i) measure(patches, i, width, height, out);
+        });
     }
 
-    Rgbx value(const Footprint& f) const override {
-        if (bicubic_ && std::max(f.width, f.height) <= kMagnified) return sampler_.bicubic(f.centre);
-        constexpr double largest = detail::Sampler<P>::kLargestBox;
-        return sampler_.box_mean(f.centre, std::min(f.width, largest), std::min(f.height, largest));
+    void values(const Footprints& f, int count, Rgbx* out) const override {
+        detail::vectorized([&]() MIRRORBALL_INLINE_BODY {
+            for (int i = 0; i < count; ++i) out[i] = value(f, i);
+        });
     }
 
   private:
+    Rgbx value(const Footprints& f, int i) const {
+        const FacePoint<double> centre{f.face[i], f.s[i], f.t[i]};
+        if (bicubic_ && std::max(f.width[i], f.height[i]) <= kMagnified) return sampler_.bicubic(centre);
+        constexpr double largest = detail::Sampler<P>::kLargestBox;
+        return sampler_.box_mean(centre, std::min(f.width[i], largest), std::min(f.height[i], largest));
+    }
+
     // How far an edge reaches along either axis, in source texels; not negative.
     struct Reach {
         double s, t;
         [[nodiscard]] double cuts() const {
-            return std::max(std::max(s, t) / kLongestEdge, std::min(s, t) / kMostSkew);
+            const double longer = s > t ? s : t, shorter = s > t ? t : s;
+            return std::max(longer * (1 / kLongestEdge), shorter * (1 / kMostSkew));
         }
     };
 
-    // `area` is that of the patch in source texels.
-    static Grid grid_of(double along_s, double along_t, double area) {
-        along_s = std::max(1.0, along_s), along_t = std::max(1.0, along_t);
-        const double excess =
-            std::sqrt(along_s * along_t / (kMostCellsPerSourceTexel * std::max(1.0, area)));
-        if (excess > 1) {
-            along_s = std::max(1.0, along_s / excess);
-            along_t = std::max(1.0, along_t / excess);
-        }
-        return {static_cast<int>(std::ceil(along_s)), static_cast<int>(std::ceil(along_t))};
+    [[gnu::always_inline]] static void measure(const Patches& patches, int i, double width,
+                                               double height, Footprints& __restrict out) {
+        const Vec3d centre = patches.centre[i], edge_s = patches.edge_s[i], edge_t = patches.edge_t[i];
+        const FacePoint<double> p = P::project(centre);
+        const Tangents<double> tangents = P::tangents(p, centre);
+        const Vec3d texel_s = tangents.ds / width, texel_t = tangents.dt / height;
+        // edge = u texel_s + v texel_t, from its dot products with both
+        const double ss = texel_s.dot(texel_s), st = texel_s.dot(texel_t), tt = texel_t.dot(texel_t);
+        const double determinant = std::max(ss * tt - st * st, 1e-12 * tt * tt);
+        const double inverse = 1 / determinant;
+        const auto in_texels = [&](const Vec3d& edge) MIRRORBALL_INLINE_BODY {
+            const double s = edge.dot(texel_s), t = edge.dot(texel_t);
+            return Reach{std::min(std::abs(tt * s - st * t) * inverse, width),
+                         std::min(std::abs(ss * t - st * s) * inverse, height)};
+        };
+        const Reach s = in_texels(edge_s), t = in_texels(edge_t);
+        const Vec3d normal = edge_s.cross(edge_t);
+        out.face[i] = p.face;
+        out.s[i] = p.s, out.t[i] = p.t;
+        out.width[i] = s.s + t.s, out.height[i] = s.t + t.t;
+        out.cuts_s[i] = s.cuts(), out.cuts_t[i] = t.cuts();
+        out.area[i] = std::sqrt(normal.dot(normal) * inverse);
     }
 
     detail::Sampler<P> sampler_;
@@ -181,36 +235,75 @@ class SourceOf final : public Source {
 
 // Together ------------------------------------------------------------------------------------------
 
-Vec3f mean_of_cells(const Source& source, const std::vector<Patch>& cells) {
-    Vec3d sum(0.0);
-    double weight = 0;
-    for (const Patch& cell : cells) {
-        const Rgbx value = source.value(source.footprint(cell));
-        sum += Vec3d(value[0], value[1], value[2]) * cell.solid_angle;
-        weight += cell.solid_angle;
-    }
-    return Vec3f(sum / weight);
-}
+// One row of the target's texels at a time, a block after the other. Texels that are boxes to the
+// source are done at once; the cells of the others queue up, so that they, too, go by the block.
+class RowResampler {
+  public:
+    RowResampler(const Target& target, const Source& source) : target_(target), source_(source) {}
 
-void resample_row(const Target& target, const Source& source, int face, int y, Image& image,
-                  const std::vector<double>& solid_angles) {
-    thread_local std::vector<Patch> cells;
-    for (int x = 0; x < image.width(); ++x) {
-        if (solid_angles[static_cast<std::size_t>(y) * image.width() + x] == 0) continue;
-        Footprint footprint = source.footprint(target.texel(face, x, y));
-        const bool whole = target.whole(face, x, y);
-        if (whole && !footprint.grid.cut()) {
-            const Rgbx value = source.value(footprint);
-            image.set_rgb(x, y, {value[0], value[1], value[2]});
-            continue;
+    void resample(int face, int y, Image& image, std::span<const double> solid_angles) {
+        for (int x0 = 0; x0 < image.width(); x0 += kBlock) {
+            const int count = std::min(kBlock, image.width() - x0);
+            target_.texels(face, x0, y, count, texels_);
+            source_.footprints(texels_, footprints_);
+            source_.values(footprints_, count, values_);
+            for (int i = 0; i < count; ++i) {
+                is_cut_[i] = false;
+                if (solid_angles[x0 + i] > 0) queue_cells(face, x0 + i, y, i);
+            }
+            finish_queue();
+            for (int i = 0; i < count; ++i)
+                if (solid_angles[x0 + i] > 0) image.set_rgb(x0 + i, y, value(i));
         }
-        Grid& grid = footprint.grid;
-        if (!whole)
-            grid = {std::max(grid.along_s, kRimCells), std::max(grid.along_t, kRimCells)};
-        target.cells(face, x, y, grid, cells);
-        image.set_rgb(x, y, mean_of_cells(source, cells));
     }
-}
+
+  private:
+    void queue_cells(int face, int x, int y, int i) {
+        const bool whole = target_.whole(face, x, y);
+        if (whole && footprints_.cuts_s[i] <= 1 && footprints_.cuts_t[i] <= 1) return;
+        Grid grid = footprints_.grid(i);
+        if (!whole) grid = {std::max(grid.along_s, kRimCells), std::max(grid.along_t, kRimCells)};
+        is_cut_[i] = true;
+        sum_[i] = Vec3d(0.0);
+        weight_[i] = 0;
+        bool any = false;
+        for (int next = 0; next < grid.cell_count();) {
+            const int before = queue_.count;
+            next = target_.cells(face, x, y, grid, next, i, queue_);
+            any = any || queue_.count > before;
+            if (queue_.count == kBlock) finish_queue();
+        }
+        if (any) return;
+        target_.across_rim(face, x, y, i, queue_);
+        if (queue_.count == kBlock) finish_queue();
+    }
+
+    void finish_queue() {
+        source_.footprints(queue_, queue_footprints_);
+        source_.values(queue_footprints_, queue_.count, queue_values_);
+        for (int k = 0; k < queue_.count; ++k) {
+            const Rgbx& value = queue_values_[k];
+            const int i = queue_.owner[k];
+            sum_[i] += Vec3d(value[0], value[1], value[2]) * queue_.solid_angle[k];
+            weight_[i] += queue_.solid_angle[k];
+        }
+        queue_.count = 0;
+    }
+
+    [[nodiscard]] Vec3f value(int i) const {
+        if (is_cut_[i]) return Vec3f(sum_[i] / weight_[i]);
+        return {values_[i][0], values_[i][1], values_[i][2]};
+    }
+
+    const Target& target_;
+    const Source& source_;
+    Patches texels_, queue_;
+    Footprints footprints_, queue_footprints_;
+    Rgbx values_[kBlock], queue_values_[kBlock];
+    bool is_cut_[kBlock];
+    Vec3d sum_[kBlock];
+    double weight_[kBlock];
+};
 
 // The target's axes in the source's frame.
 Axes relative_axes(const Axes& target, const Axes& source) {
@@ -240,7 +333,9 @@ EnvironmentMap resample(const EnvironmentMap& source, Projection projection, int
         std::int64_t{face_count(projection)} * height,
         [&](std::int64_t i) {
             const int face = static_cast<int>(i / height), y = static_cast<int>(i % height);
-            resample_row(*target, *reader, face, y, result.levels[0].faces[face], solid_angles);
+            const std::span row(solid_angles.data() + static_cast<std::size_t>(y) * width,
+                                static_cast<std::size_t>(width));
+            RowResampler(*target, *reader).resample(face, y, result.levels[0].faces[face], row);
         },
         options.progress);
     return result;

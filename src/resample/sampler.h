@@ -15,6 +15,24 @@ namespace mirrorball::detail {
 
 /// Red, green, blue and one unused lane, as the processor adds and multiplies them.
 using Rgbx = float __attribute__((vector_size(16)));
+using Mask = int __attribute__((vector_size(16)));
+
+// One instruction; the choice of a lane by a comparison, which says the same, takes four.
+inline Rgbx smaller(Rgbx a, Rgbx b) {
+#if defined(__SSE__)
+    return __builtin_ia32_minps(a, b);
+#else
+    return a < b ? a : b;
+#endif
+}
+inline Rgbx larger(Rgbx a, Rgbx b) {
+#if defined(__SSE__)
+    return __builtin_ia32_maxps(a, b);
+#else
+    return a > b ? a : b;
+#endif
+}
+inline Rgbx magnitude(Rgbx v) { return (Rgbx)((Mask)v & 0x7fffffff); }
 
 /// std::floor for values that fit an int; a library call where the processor's baseline has no such
 /// instruction, and this is the innermost loop.
@@ -34,9 +52,6 @@ inline Rgbx load_rgbx(const float* rgb) {
 /// differences beside it, and level at a peak (Fritsch and Carlson 1980). So the curve stays between
 /// b and c; a plain cubic would swing below zero beside a sun.
 inline Rgbx monotone_cubic(Rgbx a, Rgbx b, Rgbx c, Rgbx d, float x) {
-    using Mask = int __attribute__((vector_size(16)));
-    const auto magnitude = [](Rgbx v) { return (Rgbx)((Mask)v & 0x7fffffff); };
-    const auto smaller = [](Rgbx v, Rgbx w) { return v < w ? v : w; };
     const auto slope = [&](Rgbx left, Rgbx right) {
         const Rgbx central = (left + right) * 0.5f;
         const Rgbx most = smaller(magnitude(left), magnitude(right)) * 3.0f;
@@ -63,7 +78,7 @@ class Sampler {
     [[nodiscard]] Rgbx bicubic(const FacePoint<double>& p) const {
         const Position at(p, width_, height_);
         Rgbx rows[4];
-        if (inside(p.face, at, 1)) {
+        if (inside(p.face, at.x - 1, at.y - 1, at.x + 2, at.y + 2)) {
             const float* texel = level_.faces[p.face].at(at.x - 1, at.y - 1);
             for (int j = 0; j < 4; ++j, texel += 3 * static_cast<std::ptrdiff_t>(width_))
                 rows[j] = monotone_cubic(load_rgbx(texel), load_rgbx(texel + 3),
@@ -86,19 +101,18 @@ class Sampler {
     /// \pre 0 < width, height <= kLargestBox
     [[nodiscard]] Rgbx box_mean(const FacePoint<double>& p, double width, double height) const {
         const Weights columns(p.s * width_ - 0.5, width), rows(p.t * height_ - 0.5, height);
+        // a box of up to 1 or 2 texels sees 3 or 4 at most along each axis
+        const int most = std::max(width, height) <= 1 ? 3 : std::max(width, height) <= 2 ? 4 : 0;
+        if (most > 0 && inside(p.face, columns.first, rows.first, columns.first + most - 1,
+                               rows.first + most - 1)) {
+            const float* texel = level_.faces[p.face].at(columns.first, rows.first);
+            return most == 3 ? weighed<3>(texel, columns, rows) : weighed<4>(texel, columns, rows);
+        }
         Rgbx sum{};
-        const bool within = inside(p.face, columns, rows);
         for (int j = 0; j < rows.count; ++j) {
             Rgbx row{};
-            const int y = rows.first + j;
-            if (within) {
-                const float* texel = level_.faces[p.face].at(columns.first, y);
-                for (int i = 0; i < columns.count; ++i)
-                    row += load_rgbx(texel + 3 * i) * columns.weight[i];
-            } else {
-                for (int i = 0; i < columns.count; ++i)
-                    row += fetch(p.face, columns.first + i, y) * columns.weight[i];
-            }
+            for (int i = 0; i < columns.count; ++i)
+                row += fetch(p.face, columns.first + i, rows.first + j) * columns.weight[i];
             sum += row * rows.weight[j];
         }
         return sum;
@@ -110,25 +124,60 @@ class Sampler {
     // Of the texels along one axis that a box at u (in texels, from the first one's centre) sees.
     struct Weights {
         int first, count;
-        float weight[static_cast<int>(kLargestBox) + 4];
+        float weight[(static_cast<int>(kLargestBox) + 3 + 3) / 4 * 4];  // by fours; zero beyond count
 
         Weights(double u, double h) {
-            // a box of no width would divide by it; the tent is the limit, to rounding
-            const double half = std::max(h, 1e-6) / 2, scale = 0.5 / half;
+            const double half = h / 2;
             first = floor_to_int(u - half - 1) + 1;
             count = floor_to_int(u + half + 1) + 1 - first;
-            for (int i = 0; i < count; ++i) {
-                const double x = first + i - u;
-                weight[i] = static_cast<float>(
-                    (tent_integral(x + half) - tent_integral(x - half)) * scale);
-            }
+            if (h > kWide)
+                weigh(static_cast<float>(first - u), static_cast<float>(half));
+            else
+                weigh_narrow(first - u, std::max(half, 1e-6));
         }
 
+      private:
+        // A narrow box takes differences of nearly equal integrals, which need doubles; and one of no
+        // width would divide by it, where the tent is the limit, to rounding.
+        static constexpr double kWide = 0.25;
+
+        void weigh_narrow(double x, double half) {
+            for (int i = 0; i < 4; ++i, x += 1)
+                weight[i] = static_cast<float>((tent_integral(x + half) - tent_integral(x - half)) *
+                                               (0.5 / half));
+        }
         static double tent_integral(double x) {
             x = std::min(std::max(x, -1.0), 1.0);
             return x - x * std::abs(x) * 0.5;
         }
+
+        // The same, four texels at a time.
+        void weigh(float x, float half) {
+            const float scale = 0.5f / half;
+            Rgbx at = {x, x + 1, x + 2, x + 3};
+            for (int i = 0; i < count; i += 4, at += 4.0f) {
+                const Rgbx w = (tent_integral(at + half) - tent_integral(at - half)) * scale;
+                std::memcpy(weight + i, &w, sizeof w);
+            }
+        }
+        static Rgbx tent_integral(Rgbx x) {
+            constexpr Rgbx one = {1, 1, 1, 1};
+            x = smaller(larger(x, -one), one);
+            return x - x * magnitude(x) * 0.5f;
+        }
     };
+
+    // The usual box: with no counts to guess and no texel outside. Weights beyond a count are zero.
+    template <int size>
+    Rgbx weighed(const float* texel, const Weights& columns, const Weights& rows) const {
+        Rgbx sum{};
+        for (int j = 0; j < size; ++j, texel += 3 * static_cast<std::ptrdiff_t>(width_)) {
+            Rgbx row{};
+            for (int i = 0; i < size; ++i) row += load_rgbx(texel + 3 * i) * columns.weight[i];
+            sum += row * rows.weight[j];
+        }
+        return sum;
+    }
 
     // Between the centres of texels (x, y) and (x + 1, y + 1).
     struct Position {
@@ -142,15 +191,7 @@ class Sampler {
         }
     };
 
-    // Whether all texels of a block are used ones of this face: the 2 x 2 about a position and
-    // `margin` more on each side, or those of a box.
-    bool inside(int face, const Position& at, int margin) const {
-        return inside(face, at.x - margin, at.y - margin, at.x + 1 + margin, at.y + 1 + margin);
-    }
-    bool inside(int face, const Weights& columns, const Weights& rows) const {
-        return inside(face, columns.first, rows.first, columns.first + columns.count - 1,
-                      rows.first + rows.count - 1);
-    }
+    // Whether all texels of a block, the last ones included, are used ones of this face.
     bool inside(int face, int x0, int y0, int x1, int y1) const {
         if (x0 < 0 || y0 < 0 || x1 >= width_ || y1 >= height_) return false;
         if constexpr (!P::fills_square) {

@@ -97,18 +97,24 @@ struct Cube {
         return {face, (sc / m + 1) / 2, (tc / m + 1) / 2};
     }
 
-    // The inverse of the table above, for the point (a, b) of the face at distance m.
+    // The inverse of the table above, for the point (a, b) of the face at distance m. As a sum over
+    // the face's axes, not a switch, so that loops along a face become vector code.
     template <class T>
     static Vec3<T> on_cube(int face, T a, T b, T m) {
-        switch (face) {
-            case 0: return {m, -b, -a};
-            case 1: return {-m, -b, a};
-            case 2: return {a, m, b};
-            case 3: return {a, -m, -b};
-            case 4: return {a, -b, m};
-            default: return {-a, -b, -m};
-        }
+        const FaceAxes& f = kFaceAxes[face];
+        return {T(f.m[0]) * m + T(f.a[0]) * a + T(f.b[0]) * b,
+                T(f.m[1]) * m + T(f.a[1]) * a + T(f.b[1]) * b,
+                T(f.m[2]) * m + T(f.a[2]) * a + T(f.b[2]) * b};
     }
+
+    struct FaceAxes {
+        double m[3], a[3], b[3];
+    };
+    static constexpr FaceAxes kFaceAxes[6] = {
+        {{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+        {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},   {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
+        {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},  {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}},
+    };
 
     // Signed solid angle of the rectangle from a face's centre to (a, b).
     static double corner(double a, double b) {
