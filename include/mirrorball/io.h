@@ -1,7 +1,7 @@
 // Files: pictures and environment maps in, pictures and environment maps out.
 //
-// Reading tells apart formats by their first bytes, never by the name alone. Nothing is allocated on
-// a header's word before the file's length and the memory limit have been checked against it.
+// Reading tells apart formats by their first bytes, never by the name alone. Nothing is allocated
+// on a header's word before the file's length and the memory limit have been checked against it.
 // Writing goes to a temporary file beside the target that is synced and renamed over it: the target
 // is the old file or the whole new one, never a part.
 #pragma once
@@ -23,7 +23,8 @@ namespace mirrorball {
 /// Bytes that one request may hold at its peak, roughly: what is decoded and what is made of it.
 inline constexpr std::uint64_t kUnlimitedMemory = std::numeric_limits<std::uint64_t>::max();
 
-// Pictures ------------------------------------------------------------------------------------------
+// Pictures
+// ------------------------------------------------------------------------------------------
 
 /// How numbers in a file stand for light. Files of floats are linear; 8- and 16-bit ones are sRGB
 /// unless the user says otherwise.
@@ -34,6 +35,7 @@ enum class TexelFormat {
     automatic,
     rgba32f,
     rgba16f,
+    rgbe8,       ///< shared exponent (Radiance HDR)
     rgb9e5,      ///< shared exponent (KTX2)
     r11g11b10f,  ///< B10G11R11 (KTX2)
     unorm16,     ///< PNG, TIFF
@@ -45,31 +47,32 @@ enum class TexelFormat {
 
 /// How the faces of a map lie in a file that holds one picture.
 enum class Layout {
-    automatic,         ///< reading: by shape; writing: the projection's usual one
-    single,            ///< a projection of one face; one picture
-    horizontal_cross,  ///< 4 x 3 faces: . +Y . . / -X +Z +X -Z / . -Y . .
-    vertical_cross,    ///< 3 x 4 faces: . +Y . / -X +Z +X / . -Y . / . -Z (upside down) .
-    horizontal_strip,  ///< 6 x 1: +X -X +Y -Y +Z -Z
-    vertical_strip,    ///< 1 x 6
-    side_by_side,      ///< dual paraboloid: front, back
+    automatic,            ///< reading: by shape; writing: the projection's usual one
+    single,               ///< a projection of one face; one picture
+    horizontal_cross,     ///< 4 x 3 faces: . +Y . . / -X +Z +X -Z / . -Y . .
+    vertical_cross,       ///< 3 x 4 faces: . +Y . / -X +Z +X / . -Y . / . -Z (upside down) .
+    horizontal_strip,     ///< 6 x 1: +X -X +Y -Y +Z -Z
+    vertical_strip,       ///< 1 x 6
+    side_by_side,         ///< dual paraboloid: front, back
     side_by_side_turned,  ///< the same, the back turned by 180 degrees as the survey's Eq. 4 has it
 };
 [[nodiscard]] std::string_view name(Layout layout);
 /// \throws Error(Errc::usage)
 [[nodiscard]] Layout parse_layout(std::string_view name);
 
-/// Free text that travels with a map: keys and values, UTF-8. Keys of ours begin with "mirrorball.".
+/// Free text that travels with a map: keys and values, UTF-8. Keys of ours begin with
+/// "mirrorball.".
 using Metadata = std::map<std::string, std::string>;
 
 /// What a file holds, as its format tells it and before anyone guesses.
 struct FileContents {
-    std::string format;                      ///< "Radiance HDR", "KTX2", ...
+    std::string format;  ///< "Radiance HDR", "KTX2", ...
     TexelFormat stored = TexelFormat::automatic;
     std::vector<std::vector<Image>> levels;  ///< [level][face]; a plain picture is one of each
     Metadata metadata;
-    std::optional<Projection> projection;    ///< where the format itself says
-    std::optional<Axes> axes;                ///< likewise
-    std::vector<std::string> notes;          ///< what a person should be told, a sentence each
+    std::optional<Projection> projection;  ///< where the format itself says
+    std::optional<Axes> axes;              ///< likewise
+    std::vector<std::string> notes;        ///< what a person should be told, a sentence each
 };
 
 struct ReadOptions {
@@ -108,7 +111,8 @@ struct FormatInfo {
 };
 [[nodiscard]] std::vector<FormatInfo> formats();
 
-// Environment maps ----------------------------------------------------------------------------------
+// Environment maps
+// ----------------------------------------------------------------------------------
 
 /// A circle in a picture, in pixels from its top left corner: the outline of a photographed ball.
 struct CropCircle {
@@ -118,9 +122,9 @@ struct CropCircle {
 struct MapReadOptions : ReadOptions {
     std::optional<Projection> projection;  ///< else the file's word, else its shape
     Layout layout = Layout::automatic;
-    std::string axes;                      ///< parse_axes() text; empty: the file's word, else default
-    std::optional<CropCircle> crop;        ///< sphere and angular maps
-    bool repair = false;                   ///< replace texels that are no number by their neighbours
+    std::string axes;                ///< parse_axes() text; empty: the file's word, else default
+    std::optional<CropCircle> crop;  ///< sphere and angular maps
+    bool repair = false;             ///< replace texels that are no number by their neighbours
 };
 
 struct LoadedMap {
@@ -131,10 +135,10 @@ struct LoadedMap {
     std::vector<std::string> notes;  ///< guesses made, texels repaired, negative texels kept, ...
 };
 
-/// `source` is a file; a pattern for six faces or two paraboloids, `%s` standing for the face (px nx
-/// py ny pz nz, posx negx ..., right left top bottom front back, +x -x ...; front back); the faces'
-/// names themselves, separated by commas; or "builtin:NAME".
-/// \throws Error(Errc::cannot_read); a texel that is NaN or infinite is one, unless options.repair
+/// `source` is a file; a pattern for six faces or two paraboloids, `%s` standing for the face (px
+/// nx py ny pz nz, posx negx ..., right left top bottom front back, +x -x ...; front back); the
+/// faces' names themselves, separated by commas; or "builtin:NAME". \throws
+/// Error(Errc::cannot_read); a texel that is NaN or infinite is one, unless options.repair
 [[nodiscard]] LoadedMap read_map(const std::string& source, const MapReadOptions& options = {});
 
 struct MapWriteOptions : WriteOptions {

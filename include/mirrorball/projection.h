@@ -22,12 +22,12 @@
 // tests/projection_test.cpp take the list and prove its laws.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <mirrorball/axes.h>
 #include <mirrorball/projections/angular.h>

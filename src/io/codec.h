@@ -2,6 +2,9 @@
 // `const Codec kName`, declare it here, and add it to the table in codecs.cpp.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -13,15 +16,15 @@
 namespace mirrorball::detail {
 
 struct Codec {
-    std::string_view name;                       // "Radiance HDR"
-    std::vector<std::string_view> endings;       // ".hdr", lower case; the first is the usual one
-    std::vector<TexelFormat> texel_formats;      // that it writes; the first is the automatic one
+    std::string_view name;                   // "Radiance HDR"
+    std::vector<std::string_view> endings;   // ".hdr", lower case; the first is the usual one
+    std::vector<TexelFormat> texel_formats;  // that it writes; the first is the automatic one
     bool (*recognises)(std::span<const std::byte> head);  // the first 32 bytes or fewer
     FileContents (*read)(InputFile& file, const ReadOptions& options);
     // Writes `contents` (never empty; all sizes consistent) and does not commit. Values are already
     // within the range of the texel format, which is one of texel_formats. Null if it only reads.
     void (*write)(OutputFile& file, const FileContents& contents, const WriteOptions& options);
-    bool holds_cubes = false;    // six faces in one file; else one picture
+    bool holds_cubes = false;  // six faces in one file; else one picture
     bool holds_levels = false;
 };
 
@@ -32,17 +35,36 @@ extern const Codec kHdr, kExr, kPng, kJpeg, kTiff, kKtx2, kDds, kPfm;
 /// \throws Error(Errc::usage) naming the endings there are
 [[nodiscard]] const Codec& codec_for_name(const std::filesystem::path& path);
 
+/// What read_file() does with a file that is open, or in memory.
+[[nodiscard]] FileContents read_contents(InputFile& file, const ReadOptions& options);
+
+/// Writes with one codec, commits, and gives the count of bytes. Refuses values that are NaN.
+/// \pre values are within the range of options.format, which is one of the codec's
+std::uint64_t write_contents(const std::filesystem::path& path, const Codec& codec,
+                             const FileContents& contents, const WriteOptions& options);
+
+/// The texel format that a request comes down to. \throws Error(Errc::usage) if the codec has it
+/// not
+[[nodiscard]] TexelFormat choose_texel_format(const Codec& codec, TexelFormat wanted,
+                                              const std::filesystem::path& path);
+
 /// Checks a header's claim before anything is allocated for it: sizes positive and at most 2^20 a
 /// side, `file_bytes_needed` (the least that so many texels can take in this encoding) there to be
-/// read, and the decoded image within the memory limit. \throws Error(Errc::cannot_read)
+/// read from the file's position on, and the decoded images within the memory limit.
+/// \throws Error(Errc::cannot_read)
 void check_claim(const InputFile& file, std::int64_t width, std::int64_t height, int channels,
                  std::int64_t image_count, std::uint64_t file_bytes_needed,
                  const ReadOptions& options);
 
-// Half floats, shared-exponent and packed formats: one texel's encoding, shared by codecs.
+// Texel formats: their ranges, and sRGB.
 
 /// Largest value that the format holds; infinity for rgba32f.
-[[nodiscard]] float largest_value(TexelFormat format);
+[[nodiscard]] float largest_value(TexelFormat format, int channel = 0);
+/// Zero for formats without a sign, else minus the largest.
+[[nodiscard]] float lowest_value(TexelFormat format);
+/// Clamps a texel to the format's range. Whether anything changed. NaN stays.
+bool clamp_texel(std::span<float> texel, TexelFormat format);
+
 /// sRGB's transfer curve, IEC 61966-2-1, on [0, 1]; odd and unclamped beyond.
 [[nodiscard]] float srgb_to_linear(float encoded);
 [[nodiscard]] float linear_to_srgb(float linear);

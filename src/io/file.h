@@ -10,8 +10,9 @@
 
 namespace mirrorball::detail {
 
-/// A file to read: sequentially or anywhere in it. Also stands for bytes in memory, so that decoders
-/// can be fuzzed. Every failure throws Error(Errc::cannot_read) with the name and the system's reason.
+/// A file to read: sequentially or anywhere in it. Also stands for bytes in memory, so that
+/// decoders can be fuzzed. Every failure throws Error(Errc::cannot_read) with the name and the
+/// system's reason.
 class InputFile {
   public:
     explicit InputFile(const std::filesystem::path& path);
@@ -53,8 +54,15 @@ class InputFile {
     std::vector<std::byte> buffer_;
 };
 
-/// A file to write. It has no name until commit(), which syncs it and renames it over the target;
-/// without commit() nothing is left. Every failure throws Error(Errc::cannot_write).
+/// Removes what OutputFiles that are still open have on disk under a temporary name. For handlers
+/// of signals that end the program: calls nothing but unlink(), takes no lock, allocates nothing.
+void remove_temporary_files() noexcept;
+
+/// A file to write. Where the system can, it has no name before commit(), else a hidden temporary
+/// one beside its target. commit() syncs it and renames it over the target; without commit()
+/// nothing is left. A target that is a symbolic link stays one: what it points to is replaced. A
+/// target that is no regular file (a device, a pipe) gets all bytes at commit(), in order, whatever
+/// was seeked. Every failure throws Error(Errc::cannot_write) and leaves the target as it was.
 class OutputFile {
   public:
     explicit OutputFile(const std::filesystem::path& path);
@@ -84,10 +92,20 @@ class OutputFile {
     [[noreturn]] void fail(const std::string& what) const;
 
   private:
+    void open_beside_target();
+    void open_staging();
     void flush();
+    void keep_permissions();
+    void rename_over_target();
+    void copy_to_target();
+    void close_and_remove() noexcept;
+    [[noreturn]] void fail_with_reason(const char* what) const;
 
     std::string name_;
-    std::filesystem::path target_, temporary_;
+    std::filesystem::path target_;     // name_ with symbolic links followed
+    std::filesystem::path temporary_;  // empty while the file has no name
+    int temporary_slot_ = -1;          // of temporary_ in the list for remove_temporary_files()
+    bool target_is_regular_ = true;
     int descriptor_ = -1;
     std::uint64_t position_ = 0, size_ = 0;
     std::vector<std::byte> buffer_;  // not yet written; it lies just before position_

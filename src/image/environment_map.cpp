@@ -1,0 +1,153 @@
+#include <mirrorball/environment_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <mirrorball/error.h>
+
+namespace mirrorball {
+namespace {
+
+// Calls f(face, x, y, solid angle) for each used texel of a level, rows from the top.
+template <class F>
+void for_each_texel(const EnvironmentMap& map, int level, F&& f) {
+    const Level& l = map.levels[level];
+    const std::vector<double> solid_angles =
+        solid_angle_table(map.projection, l.width(), l.height());
+    for (int face = 0; face < static_cast<int>(l.faces.size()); ++face) {
+        std::size_t i = 0;
+        for (int y = 0; y < l.height(); ++y)
+            for (int x = 0; x < l.width(); ++x, ++i)
+                if (solid_angles[i] > 0) f(face, x, y, solid_angles[i]);
+    }
+}
+
+double step(const Vec3f& a, const Vec3f& b) {
+    return std::abs(double{a.x} - b.x) + std::abs(double{a.y} - b.y) + std::abs(double{a.z} - b.z);
+}
+
+// Sums of steps per radian across seams and just inside them.
+struct SeamSteps {
+    double across = 0, inside = 0;
+};
+
+template <class P>
+class SeamWalk {
+  public:
+    explicit SeamWalk(const Level& level) : level_(level), w_(level.width()), h_(level.height()) {}
+
+    // From every used texel towards each side; where that leaves the used part, the step across is
+    // weighed against the step to the opposite neighbour.
+    SeamSteps walk() const {
+        SeamSteps sum;
+        for (int face = 0; face < P::face_count; ++face)
+            for (int y = 0; y < h_; ++y)
+                for (int x = 0; x < w_; ++x)
+                    for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0),
+                                                 std::pair(0, 1), std::pair(0, -1)})
+                        add(sum, {face, x, y}, dx, dy);
+        return sum;
+    }
+
+  private:
+    struct Texel {
+        int face, x, y;
+    };
+
+    FacePoint<double> centre(const Texel& t) const {
+        return {t.face, (t.x + 0.5) / w_, (t.y + 0.5) / h_};
+    }
+    bool used(const Texel& t) const {
+        return t.x >= 0 && t.y >= 0 && t.x < w_ && t.y < h_ && P::covers(centre(t));
+    }
+    Texel containing(const FacePoint<double>& p) const {
+        return {p.face, std::clamp(static_cast<int>(p.s * w_), 0, w_ - 1),
+                std::clamp(static_cast<int>(p.t * h_), 0, h_ - 1)};
+    }
+    double steepness(const Texel& a, const Texel& b) const {
+        const Vec3d da = P::direction(centre(a)), db = P::direction(centre(b));
+        const double angle = std::atan2(da.cross(db).length(), da.dot(db));
+        if (angle < 1e-9) return 0;
+        return step(level_.faces[a.face].rgb(a.x, a.y), level_.faces[b.face].rgb(b.x, b.y)) / angle;
+    }
+    void add(SeamSteps& sum, const Texel& here, int dx, int dy) const {
+        const Texel outer{here.face, here.x + dx, here.y + dy};
+        const Texel inner{here.face, here.x - dx, here.y - dy};
+        if (!used(here) || used(outer) || !used(inner)) return;
+        const Texel opposite = containing(P::wrap(centre(outer)));
+        if (!used(opposite)) return;
+        sum.across += steepness(here, opposite);
+        sum.inside += steepness(here, inner);
+    }
+
+    const Level& level_;
+    int w_, h_;
+};
+
+}  // namespace
+
+EnvironmentMap make_environment_map(Projection projection, int size) {
+    const int width = size, height = size / aspect(projection);
+    if (size < 1 || height < 1 || height * aspect(projection) != width)
+        throw Error(Errc::usage,
+                    fmt::format("size {}: a map of projection {} needs {}", size, name(projection),
+                                aspect(projection) == 2 ? "an even width of 2 or more"
+                                                        : "an edge of 1 texel or more"));
+    EnvironmentMap map{projection, default_axes(projection), {Level{}}};
+    for (int i = 0; i < face_count(projection); ++i)
+        map.levels[0].faces.emplace_back(width, height, 3);
+    return map;
+}
+
+std::uint64_t environment_map_bytes(Projection projection, std::int64_t size) {
+    const double texels = static_cast<double>(size) * static_cast<double>(size) /
+                          aspect(projection) * face_count(projection);
+    const double bytes = texels * 3 * sizeof(float);
+    constexpr double most = 9e18;  // any more is no machine's, and would not fit the type
+    return bytes < most ? static_cast<std::uint64_t>(bytes) : static_cast<std::uint64_t>(most);
+}
+
+Vec3d flux(const EnvironmentMap& map, int level) {
+    Vec3d sum(0.0);
+    for_each_texel(map, level, [&](int face, int x, int y, double solid_angle) {
+        sum += Vec3d(map.levels[level].faces[face].rgb(x, y)) * solid_angle;
+    });
+    return sum;
+}
+
+LevelStatistics statistics(const EnvironmentMap& map, int level) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    LevelStatistics s{Vec3d(0.0), Vec3f(infinity), Vec3f(-infinity), 0, 0, 0, 0};
+    double squares = 0;
+    for_each_texel(map, level, [&](int face, int x, int y, double solid_angle) {
+        const Vec3f value = map.levels[level].faces[face].rgb(x, y);
+        bool finite = true, negative = false;
+        for (int c = 0; c < 3; ++c) {
+            finite = finite && std::isfinite(value[c]);
+            negative = negative || value[c] < 0;
+            if (!std::isfinite(value[c])) continue;
+            s.minimum[c] = std::min(s.minimum[c], value[c]);
+            s.maximum[c] = std::max(s.maximum[c], value[c]);
+        }
+        ++s.texel_count;
+        s.negative_count += negative ? 1 : 0;
+        s.non_finite_count += finite ? 0 : 1;
+        if (!finite) return;
+        s.flux += Vec3d(value) * solid_angle;
+        squares += Vec3d(value).dot(Vec3d(value)) * solid_angle;
+    });
+    s.rms = std::sqrt(squares / (3 * 4 * kPi));
+    return s;
+}
+
+double seam_ratio(const EnvironmentMap& map, int level) {
+    const SeamSteps steps = visit(map.projection, [&](auto p) {
+        return SeamWalk<decltype(p)>(map.levels[level]).walk();
+    });
+    if (steps.inside > 0) return steps.across / steps.inside;
+    return steps.across > 0 ? std::numeric_limits<double>::infinity() : 1;
+}
+
+}  // namespace mirrorball
