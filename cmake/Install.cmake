@@ -20,7 +20,6 @@ install(FILES
     DESTINATION ${package_folder})
 
 if(MIRRORBALL_BUILD_PROGRAM)
-    install(TARGETS mirrorball_program)
     # bash looks here for a file by the program's name. The program prints it.
     set(completion ${PROJECT_BINARY_DIR}/completion/mirrorball)
     add_custom_command(OUTPUT ${completion}

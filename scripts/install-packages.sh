@@ -103,9 +103,10 @@ if [ "$(id -u)" -eq 0 ]; then
 elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
     as_root="sudo -n"
 else
-    say "Installing them needs root, and sudo would ask for a password. Please run, then start again:"
+    say "Installing them needs root, and sudo would ask for a password (or is not there). Please run"
+    say "this as root, then start again:"
     say ""
-    say "    sudo apt-get update && sudo apt-get install --no-install-recommends $*"
+    say "    apt-get update && apt-get install --no-install-recommends $*"
     say ""
     exit 3
 fi
