@@ -34,7 +34,7 @@ bench:  ## build and run the benchmarks
 	@scripts/install-packages.sh build test bench
 	@cmake --preset release $(CONFIGURE) -DMIRRORBALL_BUILD_BENCHMARKS=ON
 	@cmake --build --preset release
-	@build/release/benchmarks/mirrorball_benchmarks
+	@build/release/mirrorball_benchmarks --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
 
 asan:  ## build and run the tests under the address and undefined-behaviour sanitizers
 	@scripts/install-packages.sh build test
