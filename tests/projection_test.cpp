@@ -173,7 +173,7 @@ TYPED_TEST(ProjectionLaws, TangentsAreTheDerivativesOfTheDirection) {
                                         std::abs(std::abs(x) + std::abs(y) - 1),
                                         std::abs(1 - std::hypot(x, y))});
         if (crease < 0.01 || !P::covers(p)) continue;
-        const Tangents<double> tangents = P::tangents(p);
+        const Tangents<double> tangents = P::tangents(p, P::direction(p));
         const Vec3d ds = (P::direction(moved(h, 0)) - P::direction(moved(-h, 0))) / (2 * h);
         const Vec3d dt = (P::direction(moved(0, h)) - P::direction(moved(0, -h))) / (2 * h);
         // truncation h^2 f''' and rounding eps / h, f''' up to about 1e3 at the sphere map's rim
@@ -215,6 +215,16 @@ TYPED_TEST(ProjectionLaws, WrapWalksStraightAcrossTheEdge) {
             ASSERT_LE((out - rim).length(), 1e-3) << angle;  // sqrt(e) at a sphere map's rim
         }
     }
+}
+
+TEST(Arctan2, AgreesWithTheStandardLibrary) {
+    double worst = 0;
+    for (const Vec3d& v : random_directions(200000))
+        worst = std::max(worst, std::abs(detail::arctan2(v.x, v.y) - std::atan2(v.x, v.y)));
+    EXPECT_LE(worst, 9e-16);  // one rounding of an angle near pi is 4.4e-16
+    for (const double x : {-1.0, 0.0, 1.0})
+        for (const double y : {-1.0, 0.0, 1.0})
+            EXPECT_DOUBLE_EQ(detail::arctan2(y, x), std::atan2(y, x)) << y << " " << x;
 }
 
 TEST(Cube, SurveyExample) {

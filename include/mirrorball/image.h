@@ -20,18 +20,18 @@ class Image {
     /// All zero. \pre width, height >= 1; 1 <= channels <= 4
     Image(int width, int height, int channels)
         : width_(width), height_(height), channels_(channels),
-          values_(static_cast<std::size_t>(width) * height * channels) {
+          values_(static_cast<std::size_t>(width) * height * channels + kPadding) {
         assert(width >= 1 && height >= 1 && channels >= 1 && channels <= 4);
     }
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
     [[nodiscard]] int channels() const { return channels_; }
-    [[nodiscard]] bool empty() const { return values_.empty(); }
+    [[nodiscard]] bool empty() const { return width_ == 0; }
     [[nodiscard]] std::int64_t texel_count() const { return std::int64_t{width_} * height_; }
 
-    [[nodiscard]] std::span<float> values() { return values_; }
-    [[nodiscard]] std::span<const float> values() const { return values_; }
+    [[nodiscard]] std::span<float> values() { return {values_.data(), value_count()}; }
+    [[nodiscard]] std::span<const float> values() const { return {values_.data(), value_count()}; }
 
     [[nodiscard]] std::span<float> row(int y) { return {at(0, y), row_size()}; }
     [[nodiscard]] std::span<const float> row(int y) const { return {at(0, y), row_size()}; }
@@ -51,6 +51,12 @@ class Image {
     }
 
   private:
+    // So that any texel, the last one too, can be read as four floats at once.
+    static constexpr std::size_t kPadding = 3;
+
+    [[nodiscard]] std::size_t value_count() const {
+        return static_cast<std::size_t>(height_) * row_size();
+    }
     [[nodiscard]] std::size_t row_size() const {
         return static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
     }

@@ -5,10 +5,13 @@
 // compiled once per projection and never branch on it; `visit` picks the type for a run-time value.
 //
 //     name, face_count, aspect     what it is called; images; width / height of one
+//     fills_square                 is every point of a face used? (else: those in the inscribed disc)
+//     three_at_corners             do three faces meet at a face's corners, so that no texel lies
+//                                  diagonally beyond them?
 //     project(d)                   direction (any length but 0) -> face point
 //     direction(p)                 face point -> unit direction; defined on the whole square, also
 //                                  outside the used part (see wrap)
-//     tangents(p)                  d direction / ds and / dt, analytic
+//     tangents(p, d)               d direction / ds and / dt at p, where d = direction(p); analytic
 //     density(p)                   |ds x dt|: steradians per unit area of the face
 //     covers(p)                    is this point in the used part of the face?
 //     wrap(p)                      a point up to half a face outside the used part -> the same place

@@ -65,7 +65,7 @@ ProjectionFacts measure_projection(int size) {
             const double solid_angle = solid_angles[static_cast<std::size_t>(y) * width + x];
             smallest = std::min(smallest, solid_angle);
             largest = std::max(largest, solid_angle);
-            const Tangents<double> tangents = P::tangents(centre);
+            const Tangents<double> tangents = P::tangents(centre, P::direction(centre));
             const Footprint f = footprint(tangents.ds / width, tangents.dt / size);
             worst_stretch = std::max(worst_stretch, f.longest / f.shortest);
             longest_step = std::max(longest_step, f.longest);

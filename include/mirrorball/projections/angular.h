@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include <mirrorball/projections/arctan.h>
 #include <mirrorball/projections/disc.h>
 
 namespace mirrorball {
@@ -17,6 +18,8 @@ struct AngularMap {
     static constexpr const char* name = "angular";
     static constexpr int face_count = 1;
     static constexpr int aspect = 1;
+    static constexpr bool fills_square = false;
+    static constexpr bool three_at_corners = false;
     static constexpr int seam_count = 0;
     static constexpr int pole_count = 1;  // the rim
 
@@ -25,7 +28,7 @@ struct AngularMap {
     static FacePoint<T> project(const Vec3<T>& d) {
         const T planar = std::sqrt(d.x * d.x + d.y * d.y);
         if (planar == 0) return detail::from_disc(0, d.z > 0 ? T(1) : T(0), T(0));
-        const T scale = std::atan2(planar, -d.z) / (T(kPi) * planar);
+        const T scale = T(detail::arctan2(planar, -d.z)) / (T(kPi) * planar);
         return detail::from_disc(0, d.x * scale, d.y * scale);
     }
 
@@ -37,7 +40,7 @@ struct AngularMap {
     }
 
     template <class T>
-    static Tangents<T> tangents(const FacePoint<T>& p) {
+    static Tangents<T> tangents(const FacePoint<T>& p, const Vec3<T>& /*d*/) {
         constexpr T pi = T(kPi);
         const auto [x, y] = detail::to_disc(p);
         const T rho = std::sqrt(x * x + y * y), g = sine_over(rho);

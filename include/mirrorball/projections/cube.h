@@ -24,6 +24,8 @@ struct Cube {
     static constexpr const char* name = "cube";
     static constexpr int face_count = 6;
     static constexpr int aspect = 1;
+    static constexpr bool fills_square = true;
+    static constexpr bool three_at_corners = true;
     static constexpr int seam_count = 12;
     static constexpr int pole_count = 0;
 
@@ -44,7 +46,7 @@ struct Cube {
     }
 
     template <class T>
-    static Tangents<T> tangents(const FacePoint<T>& p) {
+    static Tangents<T> tangents(const FacePoint<T>& p, const Vec3<T>& /*d*/) {
         const T a = 2 * p.s - 1, b = 2 * p.t - 1;
         const Vec3<T> d = on_cube(p.face, a, b, T(1));
         const T length2 = d.dot(d), length = std::sqrt(length2);

@@ -20,6 +20,8 @@ struct DualParaboloid {
     static constexpr const char* name = "dual-paraboloid";
     static constexpr int face_count = 2;
     static constexpr int aspect = 1;
+    static constexpr bool fills_square = false;
+    static constexpr bool three_at_corners = false;
     static constexpr int seam_count = 1;  // the two rims are one circle
     static constexpr int pole_count = 0;
 
@@ -37,7 +39,7 @@ struct DualParaboloid {
     }
 
     template <class T>
-    static Tangents<T> tangents(const FacePoint<T>& p) {
+    static Tangents<T> tangents(const FacePoint<T>& p, const Vec3<T>& /*d*/) {
         const auto [x, y] = detail::to_disc(p);
         const T q = x * x + y * y, scale = 2 / ((1 + q) * (1 + q)), z = side<T>(p.face);
         const Vec3<T> dx((1 + q - 2 * x * x) * scale, -2 * x * y * scale, -2 * x * scale * z);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <mirrorball/projections/arctan.h>
 #include <mirrorball/projections/octahedral.h>
 
 namespace mirrorball {
@@ -19,6 +20,8 @@ struct EqualAreaOctahedral {
     static constexpr const char* name = "equal-area-octahedral";
     static constexpr int face_count = 1;
     static constexpr int aspect = 1;
+    static constexpr bool fills_square = true;
+    static constexpr bool three_at_corners = false;
     static constexpr int seam_count = 4;
     static constexpr int pole_count = 0;
 
@@ -28,7 +31,7 @@ struct EqualAreaOctahedral {
         const T planar2 = ax * ax + ay * ay, length = std::sqrt(planar2 + az * az);
         // r = sqrt(1 - |z|), with 1 - |z| as (x^2 + y^2) / (1 + |z|), which does not cancel
         const T r = std::sqrt(planar2 / (length * (length + az)));
-        const T turn = planar2 > 0 ? std::atan2(ay, ax) * T(2 / kPi) : T(0.5);
+        const T turn = planar2 > 0 ? T(detail::arctan2(ay, ax) * (2 / kPi)) : T(0.5);
         T y = r * turn, x = r - y;
         if (d.z < 0) {
             const T inner_x = x;
@@ -48,7 +51,7 @@ struct EqualAreaOctahedral {
     }
 
     template <class T>
-    static Tangents<T> tangents(const FacePoint<T>& p) {
+    static Tangents<T> tangents(const FacePoint<T>& p, const Vec3<T>& /*d*/) {
         const auto [x, y] = detail::to_disc(p);
         const T ax = std::abs(x), ay = std::abs(y);
         const Polar<T> polar = to_polar(ax, ay);

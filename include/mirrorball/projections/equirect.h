@@ -5,9 +5,9 @@
 //     dw = 2 pi^2 sin(pi t) ds dt
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
+#include <mirrorball/projections/arctan.h>
 #include <mirrorball/projections/face_point.h>
 
 namespace mirrorball {
@@ -16,15 +16,17 @@ struct Equirect {
     static constexpr const char* name = "equirect";
     static constexpr int face_count = 1;
     static constexpr int aspect = 2;
+    static constexpr bool fills_square = true;
+    static constexpr bool three_at_corners = false;
     static constexpr int seam_count = 1;  // the left edge meets the right one
     static constexpr int pole_count = 2;  // the top edge and the bottom edge
 
     template <class T>
     static FacePoint<T> project(const Vec3<T>& d) {
-        constexpr T pi = T(kPi);
-        // atan2 keeps its precision at the poles, where acos(y) loses half the digits
-        return {0, T(0.5) + std::atan2(d.x, -d.z) / (2 * pi),
-                std::atan2(std::sqrt(d.x * d.x + d.z * d.z), d.y) / pi};
+        // the polar angle keeps its precision at the poles, where acos(y) loses half the digits
+        const double longitude = detail::arctan2(d.x, -d.z);
+        const double polar = detail::arctan2(std::sqrt(d.x * d.x + d.z * d.z), d.y);
+        return {0, T(0.5 + longitude * (0.5 / kPi)), T(polar * (1 / kPi))};
     }
 
     template <class T>
@@ -35,13 +37,12 @@ struct Equirect {
     }
 
     template <class T>
-    static Tangents<T> tangents(const FacePoint<T>& p) {
+    static Tangents<T> tangents(const FacePoint<T>& /*p*/, const Vec3<T>& d) {
         constexpr T pi = T(kPi);
-        const T longitude = 2 * pi * (p.s - T(0.5)), polar = pi * p.t;
-        const T sin_l = std::sin(longitude), cos_l = std::cos(longitude);
-        const T sin_p = std::sin(polar), cos_p = std::cos(polar);
-        return {Vec3<T>(cos_l, 0, sin_l) * (2 * pi * sin_p),
-                Vec3<T>(cos_p * sin_l, -sin_p, -cos_p * cos_l) * pi};
+        const T sine = std::sqrt(d.x * d.x + d.z * d.z);  // of the polar angle
+        // at a pole itself every meridian will do
+        const T east = sine > 0 ? d.x / sine : T(0), south = sine > 0 ? d.z / sine : T(-1);
+        return {Vec3<T>(-d.z, 0, d.x) * (2 * pi), Vec3<T>(d.y * east, -sine, d.y * south) * pi};
     }
 
     static double density(const FacePoint<double>& p) {

@@ -38,6 +38,8 @@ struct Octahedral {
     static constexpr const char* name = "octahedral";
     static constexpr int face_count = 1;
     static constexpr int aspect = 1;
+    static constexpr bool fills_square = true;
+    static constexpr bool three_at_corners = false;
     static constexpr int seam_count = 4;  // each edge with itself
     static constexpr int pole_count = 0;
 
@@ -58,7 +60,7 @@ struct Octahedral {
     }
 
     template <class T>
-    static Tangents<T> tangents(const FacePoint<T>& p) {
+    static Tangents<T> tangents(const FacePoint<T>& p, const Vec3<T>& /*d*/) {
         const auto [x, y] = detail::to_disc(p);
         const Vec3<T> u = on_octahedron(x, y);
         const T sx = std::copysign(T(1), x), sy = std::copysign(T(1), y);

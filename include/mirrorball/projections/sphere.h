@@ -19,6 +19,8 @@ struct SphereMap {
     static constexpr const char* name = "sphere";
     static constexpr int face_count = 1;
     static constexpr int aspect = 1;
+    static constexpr bool fills_square = false;
+    static constexpr bool three_at_corners = false;
     static constexpr int seam_count = 0;
     static constexpr int pole_count = 1;  // the rim
 
@@ -44,7 +46,7 @@ struct SphereMap {
     }
 
     template <class T>
-    static Tangents<T> tangents(const FacePoint<T>& p) {
+    static Tangents<T> tangents(const FacePoint<T>& p, const Vec3<T>& /*d*/) {
         const auto [x, y] = detail::to_disc(p);
         // on the rim the derivative along the radius is infinite; the bound keeps it a number
         const T h_z = std::sqrt(std::fmax(T(1e-12), 1 - x * x - y * y));
