@@ -32,9 +32,9 @@ struct PrefilterTarget {
 
 /// The same, fast: a chain or set of results from one source.
 ///
-/// Today it walks a quadtree over the mips of a cube made from the source, taking a mip texel where
-/// it is small against both its distance from the lobe's axis and the lobe's width; its relative RMS
-/// error against prefilter_reference() is about 1e-3 (tests/prefilter_test.cpp).
+/// Today it sorts the source's texels into a quadtree on the faces of a cube and takes whole cells of
+/// it where they are small against the lobe's width or, for GGX's long tail, against their distance
+/// from the lobe's axis. Error and cost: tests/prefilter/prefilter_test.cpp, docs/theory.
 [[nodiscard]] std::vector<EnvironmentMap> prefilter(const EnvironmentMap& source,
                                                     std::span<const PrefilterTarget> targets,
                                                     const Progress& progress = {});

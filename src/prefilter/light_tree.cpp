@@ -1,0 +1,198 @@
+#include "prefilter/light_tree.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+
+namespace mirrorball::detail {
+namespace {
+
+// A cell stands for its children while its radius is at most this share of the scale on which the
+// lobe varies over it. Light is taken to come from where it comes on average, so the error goes with
+// the square of this; the time goes with its inverse square.
+constexpr double kOpening = 0.15;
+
+// Light that weighs less than this share of the axis's is left out.
+constexpr double kNegligible = 1e-9;
+
+constexpr int kLargestFace = 1024;
+
+// Wide lobes end in a crease at the horizon, which bounds their scale.
+double scale_of(const Lobe& lobe) {
+    const double exponent = std::max(lobe.parameter, 1.0);
+    switch (lobe.kind) {
+        case Lobe::Kind::phong: return std::min(0.6, 1.7 / std::sqrt(exponent));
+        case Lobe::Kind::blinn_phong: return std::min(0.6, 3.4 / std::sqrt(exponent));
+        case Lobe::Kind::ggx: return std::min(0.5, 1.4 * lobe.parameter * lobe.parameter);
+        default: return 0.6;
+    }
+}
+
+// By bisection; every lobe falls monotonically.
+double reach_of(const LobeKernel& kernel) {
+    const double least = kNegligible * kernel(1);
+    double near = 0, far = std::sqrt(2.0);
+    for (int i = 0; i < 50; ++i) {
+        const double middle = (near + far) / 2;
+        (kernel(1 - middle * middle / 2) > least ? near : far) = middle;
+    }
+    return far;
+}
+
+// So that a cell holds about one texel, or none.
+int finest_level(const EnvironmentMap& source) {
+    const double texel_count =
+        static_cast<double>(face_count(source.projection)) * source.width() * source.height();
+    const unsigned size = std::bit_ceil(static_cast<unsigned>(std::sqrt(texel_count / 6)) + 1);
+    return std::bit_width(std::min(size, unsigned{kLargestFace})) - 1;
+}
+
+double brightness(const Vec3f& flux) { return std::abs(flux.x) + std::abs(flux.y) + std::abs(flux.z); }
+
+}  // namespace
+
+TreeLobe::TreeLobe(const Lobe& lobe)
+    : kernel(lobe), integral(lobe.integral()), scale(scale_of(lobe)), reach(reach_of(kernel)),
+      power_tail(lobe.kind == Lobe::Kind::ggx) {}
+
+LightTree::LightTree(const EnvironmentMap& source) : levels_(finest_level(source) + 1) {
+    for (int level = 0; level < static_cast<int>(levels_.size()); ++level)
+        levels_[level].resize(std::size_t{6} << (2 * level));
+    sort_in(source);
+    for (int level = static_cast<int>(levels_.size()) - 2; level >= 0; --level)
+        gather_children(level);
+    for (int level = 0; level < static_cast<int>(levels_.size()); ++level) finish(level);
+}
+
+// Until finish(), a cell's direction is the sum of its texels' directions, weighed by their light.
+void LightTree::sort_in(const EnvironmentMap& source) {
+    const int level = static_cast<int>(levels_.size()) - 1, size = 1 << level;
+    const int width = source.width(), height = source.height();
+    const std::vector<double> solid_angles = solid_angle_table(source.projection, width, height);
+    visit(source.projection, [&](auto p) {
+        using P = decltype(p);
+        for (int face = 0; face < P::face_count; ++face) {
+            for (int y = 0; y < height; ++y) {
+                for (int x = 0; x < width; ++x) {
+                    const double solid_angle = solid_angles[static_cast<std::size_t>(y) * width + x];
+                    if (solid_angle == 0) continue;
+                    const FacePoint<double> centre{face, (x + 0.5) / width, (y + 0.5) / height};
+                    const Vec3d direction = source.axes.to_world(P::direction(centre));
+                    const FacePoint<double> at = Cube::project(direction);
+                    Cell& cell = levels_[level][index(
+                        level, at.face, std::min(static_cast<int>(at.s * size), size - 1),
+                        std::min(static_cast<int>(at.t * size), size - 1))];
+                    const Vec3f flux = source.levels[0].faces[face].rgb(x, y) *
+                                       static_cast<float>(solid_angle);
+                    // a trace of solid angle gives dark cells a direction, too
+                    const double weight = brightness(flux) + 1e-6 * solid_angle;
+                    cell.direction += Vec3f(direction * weight);
+                    cell.flux += flux;
+                    cell.solid_angle += static_cast<float>(solid_angle);
+                }
+            }
+        }
+    });
+}
+
+void LightTree::gather_children(int level) {
+    const int size = 1 << level;
+    parallel_for(std::int64_t{6} * size, [&](std::int64_t row) {
+        const int face = static_cast<int>(row / size), y = static_cast<int>(row % size);
+        for (int x = 0; x < size; ++x) {
+            Cell& cell = levels_[level][index(level, face, x, y)];
+            for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1),
+                                         std::pair(1, 1)}) {
+                const Cell& child = levels_[level + 1][index(level + 1, face, 2 * x + dx, 2 * y + dy)];
+                cell.direction += child.direction;
+                cell.flux += child.flux;
+                cell.solid_angle += child.solid_angle;
+            }
+        }
+    });
+}
+
+void LightTree::finish(int level) {
+    const int size = 1 << level;
+    parallel_for(std::int64_t{6} * size, [&](std::int64_t row) {
+        const int face = static_cast<int>(row / size), y = static_cast<int>(row % size);
+        for (int x = 0; x < size; ++x) {
+            Cell& cell = levels_[level][index(level, face, x, y)];
+            if (cell.solid_angle == 0) continue;
+            const Vec3d sum(cell.direction), centre = sum / sum.length();
+            double radius = 0;
+            for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1),
+                                         std::pair(1, 1)}) {
+                const FacePoint<double> corner{face, static_cast<double>(x + dx) / size,
+                                               static_cast<double>(y + dy) / size};
+                radius = std::max(radius, (Cube::direction(corner) - centre).length());
+            }
+            cell.direction = Vec3f(centre);
+            cell.radius = static_cast<float>(radius);
+        }
+    });
+}
+
+struct LightTree::Nearest {
+    Vec3d axis;
+    double chord = 3;
+    const Cell* cell = nullptr;
+};
+
+// What one lobe about one axis gathers on its way down the tree.
+struct LightTree::Walk {
+    const TreeLobe& lobe;
+    Vec3d axis;
+    Vec3d sum{0.0};
+    double weight = 0;
+};
+
+void LightTree::visit_cell(Walk& walk, int level, int face, int x, int y) const {
+    const Cell& cell = levels_[level][index(level, face, x, y)];
+    if (cell.solid_angle == 0) return;
+    const TreeLobe& lobe = walk.lobe;
+    const double cosine = std::min(1.0, walk.axis.dot(Vec3d(cell.direction)));
+    const double chord2 = 2 - 2 * cosine, radius = cell.radius, beyond = lobe.reach + radius;
+    if (chord2 > beyond * beyond) return;
+    const double scale2 = lobe.scale * lobe.scale + (lobe.power_tail ? chord2 : 0);
+    const bool finest = level + 1 == static_cast<int>(levels_.size());
+    if (finest || radius * radius <= kOpening * kOpening * scale2) {
+        const double weight = lobe.kernel(cosine);
+        walk.sum += Vec3d(cell.flux) * weight;
+        walk.weight += weight * cell.solid_angle;
+        return;
+    }
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) visit_cell(walk, level + 1, face, 2 * x + i, 2 * y + j);
+}
+
+// The lit cell nearest to the axis, passing over all that cannot be nearer than the best so far.
+void LightTree::visit_nearest(Nearest& nearest, int level, int face, int x, int y) const {
+    const Cell& cell = levels_[level][index(level, face, x, y)];
+    if (cell.solid_angle == 0) return;
+    const double chord = (Vec3d(cell.direction) - nearest.axis).length();
+    if (chord - cell.radius >= nearest.chord) return;
+    if (level + 1 == static_cast<int>(levels_.size())) {
+        if (chord < nearest.chord) nearest.chord = chord, nearest.cell = &cell;
+        return;
+    }
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) visit_nearest(nearest, level + 1, face, 2 * x + i, 2 * y + j);
+}
+
+Vec3d LightTree::filtered(const TreeLobe& lobe, const Vec3d& axis) const {
+    Walk walk{lobe, axis};
+    for (int face = 0; face < 6; ++face) visit_cell(walk, 0, face, 0, 0);
+    if (walk.weight < std::numeric_limits<double>::min()) {
+        // narrower than a texel: the nearest is all that the lobe could see
+        Nearest nearest{axis};
+        for (int face = 0; face < 6; ++face) visit_nearest(nearest, 0, face, 0, 0);
+        return Vec3d(nearest.cell->flux) * (lobe.integral / nearest.cell->solid_angle);
+    }
+    return walk.sum * (lobe.integral / walk.weight);
+}
+
+}  // namespace mirrorball::detail
