@@ -36,8 +36,8 @@ enum class TexelFormat {
     rgba32f,
     rgba16f,
     rgbe8,       ///< shared exponent (Radiance HDR)
-    rgb9e5,      ///< shared exponent (KTX2)
-    r11g11b10f,  ///< B10G11R11 (KTX2)
+    rgb9e5,      ///< shared exponent (KTX2, DDS)
+    r11g11b10f,  ///< B10G11R11 (KTX2, DDS)
     unorm16,     ///< PNG, TIFF
     unorm8,
 };
@@ -82,13 +82,17 @@ struct ReadOptions {
 
 struct WriteOptions {
     TexelFormat format = TexelFormat::automatic;
-    bool compress = true;  ///< losslessly, where the format can (KTX2: Zstandard; EXR: ZIP)
+    /// Losslessly, where the format can. Unset: as opens most widely, so EXR yes (every reader has
+    /// ZIP), KTX2 no (many viewers have no Zstandard decoder).
+    std::optional<bool> compress = {};
 };
 
 /// Texels that the stored format could not hold and that were clamped to its range.
 struct WriteReport {
     std::int64_t clipped_texel_count = 0;
-    Vec3d lost_flux{0, 0, 0};  ///< integral of what was cut off over the sphere; maps only
+    /// Integral of what was cut off over the sphere; maps only. Of several levels, each of which is a
+    /// whole sphere, that of the level that loses most.
+    Vec3d lost_flux{0, 0, 0};
     std::uint64_t byte_count = 0;
 };
 

@@ -144,7 +144,8 @@ LevelStatistics statistics(const EnvironmentMap& map, int level) {
 
 double seam_ratio(const EnvironmentMap& map, int level) {
     const SeamSteps steps = visit(map.projection, [&](auto p) {
-        return SeamWalk<decltype(p)>(map.levels[level]).walk();
+        using P = decltype(p);
+        return P::seam_count > 0 ? SeamWalk<P>(map.levels[level]).walk() : SeamSteps{};
     });
     if (steps.inside > 0) return steps.across / steps.inside;
     return steps.across > 0 ? std::numeric_limits<double>::infinity() : 1;

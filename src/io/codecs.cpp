@@ -210,7 +210,9 @@ WriteReport write_image(const std::filesystem::path& path, const Image& image,
 namespace detail {
 
 std::span<const Codec* const> codecs() {
-    static const std::vector<const Codec*> kTable = {};
+    static const std::vector<const Codec*> kTable = {
+        &kHdr, &kExr, &kPng, &kJpeg, &kTiff, &kKtx2, &kDds, &kPfm,
+    };
     return kTable;
 }
 

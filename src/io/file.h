@@ -33,6 +33,14 @@ class InputFile {
     /// As many bytes as there are; the count.
     std::size_t read_some(std::span<std::byte> out);
 
+    /// The next byte; inline, because run-length decoders ask for one at a time.
+    std::byte read_byte() {
+        const std::uint64_t offset = position_ - memory_start_;  // wraps where before the buffer
+        if (offset >= memory_.size()) return read_value<std::byte>();
+        ++position_;
+        return memory_[offset];
+    }
+
     template <class T>
     T read_value() {
         T value;

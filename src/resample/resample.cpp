@@ -22,23 +22,21 @@ namespace {
 
 using detail::Rgbx;
 
-// A cell's edge may cross this many source texels the other way before it is cut.
+// An edge longer than this many source texels is cut; so is one that crosses this many the other way.
+constexpr double kLongestEdge = 4;
 constexpr double kMostSkew = 0.5;
 // Below this many source texels per edge of the target the interpolation is seen, not the average.
 constexpr double kMagnified = 0.5;
 // Near a pole of the source its texels become slivers, and cells cut for their short side everywhere
 // would be many more than there are texels: this many at most.
 constexpr double kMostCellsPerSourceTexel = 4;
+// A texel on the rim is cut so that the rim's course through it is seen.
+constexpr int kRimCells = 16;
 
-// A texel of the target in the source's frame; its edges are differences of direction.
-struct TargetTexel {
+// A texel of the target, or a cell of one, in the source's frame; edges are differences of direction.
+struct Patch {
     Vec3d centre, edge_s, edge_t;
-    bool whole;  // entirely in the used part
-};
-
-struct Cell {
-    Vec3d direction;
-    double solid_angle;
+    double solid_angle;  // up to a factor common to a texel's cells
 };
 
 struct Grid {
@@ -46,13 +44,11 @@ struct Grid {
     [[nodiscard]] bool cut() const { return along_s > 1 || along_t > 1; }
 };
 
-// What a texel of the target is to the source: where it lies, how many source texels its two edges
-// reach along s and along t (not negative), and into how many cells it should be cut.
+// What a patch is to the source: where it lies, how many source texels its two edges together reach
+// along s and along t, and into how many cells it should be cut to be boxes.
 struct Footprint {
     FacePoint<double> centre;
-    struct {
-        double s, t;
-    } edge_s, edge_t;
+    double width, height;
     Grid grid;
 };
 
@@ -61,9 +57,11 @@ struct Footprint {
 class Target {
   public:
     virtual ~Target() = default;
-    virtual void describe_row(int face, int y, std::vector<TargetTexel>& row) const = 0;
-    // The used cells of one texel's grid, solid angles up to a common factor; at least one.
-    virtual void cut_texel(int face, int x, int y, Grid grid, std::vector<Cell>& out) const = 0;
+    virtual Patch texel(int face, int x, int y) const = 0;
+    // Is it entirely in the used part?
+    virtual bool whole(int face, int x, int y) const = 0;
+    // The used cells of a texel; at least one.
+    virtual void cells(int face, int x, int y, Grid grid, std::vector<Patch>& out) const = 0;
 };
 
 template <class P>
@@ -73,42 +71,40 @@ class TargetOf final : public Target {
     TargetOf(int width, int height, const Axes& target_to_source)
         : width_(width), height_(height), to_source_(target_to_source) {}
 
-    void describe_row(int face, int y, std::vector<TargetTexel>& row) const override {
-        row.resize(width_);
-        for (int x = 0; x < width_; ++x) {
-            const FacePoint<double> p = point(face, x, y, 0.5, 0.5);
-            const Vec3d centre = P::direction(p);
-            const Tangents<double> tangents = P::tangents(p, centre);
-            row[x] = {to_source_.to_world(centre),
-                      to_source_.to_world(tangents.ds / width_),
-                      to_source_.to_world(tangents.dt / height_), whole(face, x, y)};
-        }
+    Patch texel(int face, int x, int y) const override {
+        return patch(point(face, x, y, 0.5, 0.5), {});
     }
 
-    void cut_texel(int face, int x, int y, Grid grid, std::vector<Cell>& out) const override {
+    bool whole(int face, int x, int y) const override {
+        if constexpr (P::fills_square) return true;
+        return P::covers(point(face, x, y, 0, 0)) && P::covers(point(face, x, y, 1, 0)) &&
+               P::covers(point(face, x, y, 0, 1)) && P::covers(point(face, x, y, 1, 1));
+    }
+
+    void cells(int face, int x, int y, Grid grid, std::vector<Patch>& out) const override {
         out.clear();
         for (int j = 0; j < grid.along_t; ++j) {
             for (int i = 0; i < grid.along_s; ++i) {
                 const FacePoint<double> p =
                     point(face, x, y, (i + 0.5) / grid.along_s, (j + 0.5) / grid.along_t);
-                if (!P::covers(p)) continue;
-                out.push_back({to_source_.to_world(P::direction(p)), P::density(p)});
+                if (P::covers(p)) out.push_back(patch(p, grid));
             }
         }
-        if (!out.empty()) return;
-        // a sliver that the rim cut off between the samples
-        const FacePoint<double> p = P::wrap(point(face, x, y, 0.5, 0.5));
-        out.push_back({to_source_.to_world(P::direction(p)), 1});
+        // a sliver that the rim cut off between the cells' centres
+        if (out.empty()) out.push_back(patch(P::wrap(point(face, x, y, 0.5, 0.5)), grid));
     }
 
   private:
     FacePoint<double> point(int face, int x, int y, double fx, double fy) const {
         return {face, (x + fx) / width_, (y + fy) / height_};
     }
-    bool whole(int face, int x, int y) const {
-        if constexpr (P::fills_square) return true;
-        return P::covers(point(face, x, y, 0, 0)) && P::covers(point(face, x, y, 1, 0)) &&
-               P::covers(point(face, x, y, 0, 1)) && P::covers(point(face, x, y, 1, 1));
+    Patch patch(const FacePoint<double>& p, Grid grid) const {
+        const Vec3d centre = P::direction(p);
+        const Tangents<double> tangents = P::tangents(p, centre);
+        return {to_source_.to_world(centre),
+                to_source_.to_world(tangents.ds / (static_cast<double>(width_) * grid.along_s)),
+                to_source_.to_world(tangents.dt / (static_cast<double>(height_) * grid.along_t)),
+                P::density(p)};
     }
 
     int width_, height_;
@@ -120,9 +116,8 @@ class TargetOf final : public Target {
 class Source {
   public:
     virtual ~Source() = default;
-    virtual Footprint footprint(const TargetTexel& texel) const = 0;
+    virtual Footprint footprint(const Patch& patch) const = 0;
     virtual Rgbx value(const Footprint& footprint) const = 0;
-    virtual Rgbx value(const Footprint& footprint, const std::vector<Cell>& cells) const = 0;
 };
 
 template <class P>
@@ -131,59 +126,44 @@ class SourceOf final : public Source {
     SourceOf(const Level& level, Interpolation interpolation)
         : sampler_(level), bicubic_(interpolation == Interpolation::bicubic) {}
 
-    Footprint footprint(const TargetTexel& texel) const override {
-        const FacePoint<double> p = P::project(texel.centre);
-        const Tangents<double> tangents = P::tangents(p, texel.centre);
+    Footprint footprint(const Patch& patch) const override {
+        const FacePoint<double> p = P::project(patch.centre);
+        const Tangents<double> tangents = P::tangents(p, patch.centre);
         const Vec3d texel_s = tangents.ds / sampler_.width(), texel_t = tangents.dt / sampler_.height();
         // edge = u texel_s + v texel_t, from its dot products with both
         const double ss = texel_s.dot(texel_s), st = texel_s.dot(texel_t), tt = texel_t.dot(texel_t);
         const double determinant = std::max(ss * tt - st * st, 1e-12 * tt * tt);
         const double inverse = 1 / determinant;
-        Footprint f{p, {}, {}, {}};
-        for (const auto& [edge, step] : {std::pair(&texel.edge_s, &f.edge_s),
-                                         std::pair(&texel.edge_t, &f.edge_t)}) {
-            const double s = edge->dot(texel_s), t = edge->dot(texel_t);
-            step->s = std::min(std::abs(tt * s - st * t) * inverse, 1.0 * sampler_.width());
-            step->t = std::min(std::abs(ss * t - st * s) * inverse, 1.0 * sampler_.height());
-        }
-        const double along_s = cuts(f.edge_s.s, f.edge_s.t), along_t = cuts(f.edge_t.s, f.edge_t.t);
-        if (along_s > 1 || along_t > 1) {
-            const double area = texel.edge_s.cross(texel.edge_t).length() / std::sqrt(determinant);
-            f.grid = grid_of(along_s, along_t, area);
+        const auto in_texels = [&](const Vec3d& edge) {
+            const double s = edge.dot(texel_s), t = edge.dot(texel_t);
+            return Reach{std::min(std::abs(tt * s - st * t) * inverse, 1.0 * sampler_.width()),
+                         std::min(std::abs(ss * t - st * s) * inverse, 1.0 * sampler_.height())};
+        };
+        const Reach s = in_texels(patch.edge_s), t = in_texels(patch.edge_t);
+        Footprint f{p, s.s + t.s, s.t + t.t, {}};
+        if (s.cuts() > 1 || t.cuts() > 1) {
+            const double area = patch.edge_s.cross(patch.edge_t).length() / std::sqrt(determinant);
+            f.grid = grid_of(s.cuts(), t.cuts(), area);
         }
         return f;
     }
 
     Rgbx value(const Footprint& f) const override {
-        const double width = f.edge_s.s + f.edge_t.s, height = f.edge_s.t + f.edge_t.t;
-        if (bicubic_ && std::max(width, height) <= kMagnified) return sampler_.bicubic(f.centre);
-        return sampler_.box_mean(f.centre, width, height);
-    }
-
-    Rgbx value(const Footprint& f, const std::vector<Cell>& cells) const override {
-        const auto extent = [&](double along_s, double along_t) {
-            const double sum = along_s / f.grid.along_s + along_t / f.grid.along_t;
-            return std::min(sum, detail::Sampler<P>::kLargestBox);
-        };
-        const double width = extent(f.edge_s.s, f.edge_t.s), height = extent(f.edge_s.t, f.edge_t.t);
-        double sum[3] = {}, weight = 0;
-        for (const Cell& cell : cells) {
-            const Rgbx mean = sampler_.box_mean(P::project(cell.direction), width, height);
-            for (int c = 0; c < 3; ++c) sum[c] += cell.solid_angle * mean[c];
-            weight += cell.solid_angle;
-        }
-        Rgbx mean{};
-        for (int c = 0; c < 3; ++c) mean[c] = static_cast<float>(sum[c] / weight);
-        return mean;
+        if (bicubic_ && std::max(f.width, f.height) <= kMagnified) return sampler_.bicubic(f.centre);
+        constexpr double largest = detail::Sampler<P>::kLargestBox;
+        return sampler_.box_mean(f.centre, std::min(f.width, largest), std::min(f.height, largest));
     }
 
   private:
-    static double cuts(double s, double t) {
-        return std::max(std::max(s, t) / (detail::Sampler<P>::kLargestBox / 2),
-                        std::min(s, t) / kMostSkew);
-    }
+    // How far an edge reaches along either axis, in source texels; not negative.
+    struct Reach {
+        double s, t;
+        [[nodiscard]] double cuts() const {
+            return std::max(std::max(s, t) / kLongestEdge, std::min(s, t) / kMostSkew);
+        }
+    };
 
-    // `area` is that of the texel in source texels.
+    // `area` is that of the patch in source texels.
     static Grid grid_of(double along_s, double along_t, double area) {
         along_s = std::max(1.0, along_s), along_t = std::max(1.0, along_t);
         const double excess =
@@ -201,25 +181,34 @@ class SourceOf final : public Source {
 
 // Together ------------------------------------------------------------------------------------------
 
+Vec3f mean_of_cells(const Source& source, const std::vector<Patch>& cells) {
+    Vec3d sum(0.0);
+    double weight = 0;
+    for (const Patch& cell : cells) {
+        const Rgbx value = source.value(source.footprint(cell));
+        sum += Vec3d(value[0], value[1], value[2]) * cell.solid_angle;
+        weight += cell.solid_angle;
+    }
+    return Vec3f(sum / weight);
+}
+
 void resample_row(const Target& target, const Source& source, int face, int y, Image& image,
                   const std::vector<double>& solid_angles) {
-    thread_local std::vector<TargetTexel> row;
-    thread_local std::vector<Cell> cells;
-    target.describe_row(face, y, row);
+    thread_local std::vector<Patch> cells;
     for (int x = 0; x < image.width(); ++x) {
         if (solid_angles[static_cast<std::size_t>(y) * image.width() + x] == 0) continue;
-        Footprint footprint = source.footprint(row[x]);
-        Rgbx value;
-        if (row[x].whole && !footprint.grid.cut()) {
-            value = source.value(footprint);
-        } else {
-            Grid& grid = footprint.grid;
-            // enough of them that the rim's course through the texel is seen
-            if (!row[x].whole) grid = {std::max(grid.along_s, 4), std::max(grid.along_t, 4)};
-            target.cut_texel(face, x, y, grid, cells);
-            value = source.value(footprint, cells);
+        Footprint footprint = source.footprint(target.texel(face, x, y));
+        const bool whole = target.whole(face, x, y);
+        if (whole && !footprint.grid.cut()) {
+            const Rgbx value = source.value(footprint);
+            image.set_rgb(x, y, {value[0], value[1], value[2]});
+            continue;
         }
-        image.set_rgb(x, y, {value[0], value[1], value[2]});
+        Grid& grid = footprint.grid;
+        if (!whole)
+            grid = {std::max(grid.along_s, kRimCells), std::max(grid.along_t, kRimCells)};
+        target.cells(face, x, y, grid, cells);
+        image.set_rgb(x, y, mean_of_cells(source, cells));
     }
 }
 

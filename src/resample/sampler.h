@@ -113,20 +113,20 @@ class Sampler {
         float weight[static_cast<int>(kLargestBox) + 4];
 
         Weights(double u, double h) {
-            const double half = std::max(h, 1e-3) / 2;  // below that, the tent itself to rounding
+            // a box of no width would divide by it; the tent is the limit, to rounding
+            const double half = std::max(h, 1e-6) / 2, scale = 0.5 / half;
             first = floor_to_int(u - half - 1) + 1;
             count = floor_to_int(u + half + 1) + 1 - first;
-            const float x0 = static_cast<float>(first - u), reach = static_cast<float>(half);
-            const float scale = 0.5f / reach;
             for (int i = 0; i < count; ++i) {
-                const float x = x0 + static_cast<float>(i);
-                weight[i] = (tent_integral(x + reach) - tent_integral(x - reach)) * scale;
+                const double x = first + i - u;
+                weight[i] = static_cast<float>(
+                    (tent_integral(x + half) - tent_integral(x - half)) * scale);
             }
         }
 
-        static float tent_integral(float x) {
-            x = std::min(std::max(x, -1.0f), 1.0f);
-            return x - x * std::abs(x) * 0.5f;
+        static double tent_integral(double x) {
+            x = std::min(std::max(x, -1.0), 1.0);
+            return x - x * std::abs(x) * 0.5;
         }
     };
 

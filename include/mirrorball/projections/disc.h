@@ -64,6 +64,9 @@ double disc_edge(double p, double u0, double u1) {
 template <class Map>
 double disc_solid_angle(const FaceRect& r) {
     const double x0 = 2 * r.s0 - 1, x1 = 2 * r.s1 - 1, y0 = 1 - 2 * r.t1, y1 = 1 - 2 * r.t0;
+    // wholly outside it is 0 and not a sum's rounding: that is how an unused texel is known
+    const double nearest_x = std::clamp(0.0, x0, x1), nearest_y = std::clamp(0.0, y0, y1);
+    if (nearest_x * nearest_x + nearest_y * nearest_y >= 1) return 0;
     // counter-clockwise; distances are positive where the centre lies to the left of the edge
     const double sum = disc_edge<Map>(-y0, x0, x1) + disc_edge<Map>(x1, y0, y1) +
                        disc_edge<Map>(y1, -x1, -x0) + disc_edge<Map>(-x0, -y1, -y0);

@@ -1,0 +1,104 @@
+// Gradient noise (Perlin 1985, "An Image Synthesizer"; quintic fade of Perlin 2002) with its
+// analytic gradient, and sums of its octaves. Lattice gradients come from an integer hash: no
+// tables, no seed but the one passed, the same picture everywhere.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace mirrorball::detail {
+
+/// A point or vector of the plane.
+struct Vec2 {
+    double x = 0, y = 0;
+};
+
+/// A noise value, about -1 to 1, and its derivatives.
+struct NoiseSample {
+    double value = 0, dx = 0, dy = 0;
+};
+
+namespace noise_detail {
+
+inline std::uint32_t hash(std::int32_t x, std::int32_t y, std::uint32_t seed) {
+    std::uint32_t h = seed * 0x9E3779B9u;
+    h = (h ^ static_cast<std::uint32_t>(x)) * 0x85EBCA6Bu;
+    h = (h ^ (h >> 15) ^ static_cast<std::uint32_t>(y)) * 0xC2B2AE35u;
+    h = (h ^ (h >> 13)) * 0x27D4EB2Fu;
+    return h ^ (h >> 16);
+}
+
+// One of 16 unit vectors, evenly around the circle: enough that no direction stands out.
+inline Vec2 lattice_gradient(std::int32_t x, std::int32_t y, std::uint32_t seed) {
+    static constexpr Vec2 kDirections[16] = {
+        {1.0, 0.0},  {0.9238795, 0.3826834},   {0.7071068, 0.7071068},   {0.3826834, 0.9238795},
+        {0.0, 1.0},  {-0.3826834, 0.9238795},  {-0.7071068, 0.7071068},  {-0.9238795, 0.3826834},
+        {-1.0, 0.0}, {-0.9238795, -0.3826834}, {-0.7071068, -0.7071068}, {-0.3826834, -0.9238795},
+        {0.0, -1.0}, {0.3826834, -0.9238795},  {0.7071068, -0.7071068},  {0.9238795, -0.3826834}};
+    return kDirections[hash(x, y, seed) >> 28];
+}
+
+}  // namespace noise_detail
+
+/// Features are about one unit wide; 0 on average.
+inline NoiseSample noise(const Vec2& p, std::uint32_t seed) {
+    const double floor_x = std::floor(p.x), floor_y = std::floor(p.y);
+    const auto ix = static_cast<std::int32_t>(floor_x), iy = static_cast<std::int32_t>(floor_y);
+    const double x = p.x - floor_x, y = p.y - floor_y;
+
+    const double u = x * x * x * (x * (x * 6 - 15) + 10), du = 30 * x * x * (x * (x - 2) + 1);
+    const double v = y * y * y * (y * (y * 6 - 15) + 10), dv = 30 * y * y * (y * (y - 2) + 1);
+
+    const Vec2 g00 = noise_detail::lattice_gradient(ix, iy, seed);
+    const Vec2 g10 = noise_detail::lattice_gradient(ix + 1, iy, seed);
+    const Vec2 g01 = noise_detail::lattice_gradient(ix, iy + 1, seed);
+    const Vec2 g11 = noise_detail::lattice_gradient(ix + 1, iy + 1, seed);
+    const double a = g00.x * x + g00.y * y;
+    const double b = g10.x * (x - 1) + g10.y * y;
+    const double c = g01.x * x + g01.y * (y - 1);
+    const double d = g11.x * (x - 1) + g11.y * (y - 1);
+
+    // value = a + u (b - a) + v (c - a) + u v k, and its derivatives by the product rule
+    const double k = a - b - c + d;
+    constexpr double kScale = 1.5;  // brings the usual extremes to about -1 and 1
+    const auto blend = [&](double pa, double pb, double pc, double pd) {
+        return pa + u * (pb - pa) + v * (pc - pa) + u * v * (pa - pb - pc + pd);
+    };
+    return {kScale * (a + u * (b - a) + v * (c - a) + u * v * k),
+            kScale * (blend(g00.x, g10.x, g01.x, g11.x) + du * (b - a + v * k)),
+            kScale * (blend(g00.y, g10.y, g01.y, g11.y) + dv * (c - a + u * k))};
+}
+
+/// Octaves of noise, each of half the size of the one before and `gain` times as strong. Octaves
+/// that are not well wider than `footprint` fade out, so that samples that far apart never alias.
+struct Fractal {
+    int octaves;
+    double gain;
+    std::uint32_t seed;
+
+    [[nodiscard]] NoiseSample operator()(Vec2 p, double footprint) const {
+        // A turn by 37 degrees per octave keeps the lattices from lining up.
+        constexpr double kCos = 0.79863551, kSin = 0.60181502;
+        NoiseSample sum;
+        double amplitude = 1, frequency = 1, turn_cos = 1, turn_sin = 0;
+        for (int i = 0; i < octaves; ++i) {
+            const double fade = std::clamp(2 - 4 * footprint * frequency, 0.0, 1.0);
+            if (fade == 0) break;
+            const NoiseSample n = noise(p, seed + static_cast<std::uint32_t>(i));
+            const double weight = amplitude * fade;
+            sum.value += weight * n.value;
+            sum.dx += weight * frequency * (turn_cos * n.dx + turn_sin * n.dy);
+            sum.dy += weight * frequency * (turn_cos * n.dy - turn_sin * n.dx);
+            p = {2 * (kCos * p.x - kSin * p.y), 2 * (kSin * p.x + kCos * p.y)};
+            const double next_cos = turn_cos * kCos - turn_sin * kSin;
+            turn_sin = turn_sin * kCos + turn_cos * kSin;
+            turn_cos = next_cos;
+            amplitude *= gain;
+            frequency *= 2;
+        }
+        return sum;
+    }
+};
+
+}  // namespace mirrorball::detail

@@ -1,0 +1,7 @@
+#include "decode.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    mirrorball::detail::decode_or_refuse(mirrorball::detail::kHdr,
+                                         std::as_bytes(std::span(data, size)));
+    return 0;
+}
