@@ -22,7 +22,7 @@
 namespace mirrorball::detail {
 namespace {
 
-constexpr double kDetail = 0.22 * kPi / 180;  // half the finest line, in a side's corner
+constexpr double kDetail = 0.3 * kPi / 180;  // less than the finest line, in a corner
 
 // On a side, x to the right and y up, both -1 to 1: gnomonic, as on a cube.
 constexpr double kLabelHeight = 0.62, kLabelPen = 0.062, kLabelY = -0.16;

@@ -1,6 +1,7 @@
 #include "clouds.h"
 
 #include <cmath>
+#include <optional>
 
 #include "shading.h"
 
@@ -35,7 +36,7 @@ Clouds::Sample Clouds::sample(const CloudSheet& sheet, const Vec3d& direction) c
         -across + std::sqrt(across * across + sheet.height * (2 * kEarthRadius + sheet.height));
     const double steepness = (across + distance) / (kEarthRadius + sheet.height);
 
-    const double c = std::cos(sheet.wind), s = std::sin(sheet.wind);
+    const double c = sheet.wind.x, s = sheet.wind.y;
     const double x = direction.x * distance, z = direction.z * distance;
     const Vec2 p{(c * x + s * z) / sheet.scale.x, (c * z - s * x) / sheet.scale.y};
     const double footprint = detail_ * distance / (steepness * sheet.scale.y);
@@ -47,6 +48,8 @@ Clouds::Sample Clouds::sample(const CloudSheet& sheet, const Vec3d& direction) c
         sheet.pattern({p.x + sheet.warp * drag.value, p.y + sheet.warp * drag.dx * 0.5}, footprint);
     const double amount = smoothstep(sheet.low, sheet.high, n.value + sheet.patches * patches);
 
+    if (amount == 0) return {0, 0};
+
     // The side of a billow that faces the sun is the brighter one.
     const Vec3d& sun = air_.sun().direction;
     const double toward = (c * sun.x + s * sun.z) * n.dx + (c * sun.z - s * sun.x) * n.dy;
@@ -56,7 +59,7 @@ Clouds::Sample Clouds::sample(const CloudSheet& sheet, const Vec3d& direction) c
 }
 
 Vec3d Clouds::over(const Vec3d& clear, const Vec3d& direction) const {
-    const Vec3d air = air_.transmittance(direction);
+    std::optional<Vec3d> air;
     const Vec3d ambient = air_.sky_irradiance() * (0.9 / kPi);
     const double forward = phase(direction.dot(air_.sun().direction));
     Vec3d light = clear;
@@ -64,13 +67,14 @@ Vec3d Clouds::over(const Vec3d& clear, const Vec3d& direction) const {
     for (std::size_t i = sheets_.size(); i-- > 0;) {
         const CloudSheet& sheet = sheets_[i];
         const Sample cloud = sample(sheet, direction);
-        if (cloud.depth <= 0) continue;
+        if (cloud.depth == 0) continue;
+        if (!air) air = air_.transmittance(direction);
         const double lit = (1 + sheet.relief * cloud.relief) *
                            mix(sheet.darkest, 1.0, std::exp(-0.35 * cloud.depth));
         // Light that is scattered more than once comes out of thick cloud evenly.
         const double even = 0.8 / kPi * air_.sun().direction.y * (1 - std::exp(-0.5 * cloud.depth));
         const Vec3d own = sunlight_[i] * ((forward + even) * lit) + ambient;
-        light = mix(light, Atmosphere::through_air_below(own, clear, air, sheet.height),
+        light = mix(light, Atmosphere::through_air_below(own, clear, *air, sheet.height),
                     1 - std::exp(-cloud.depth));
     }
     return light;

@@ -15,7 +15,7 @@ namespace mirrorball::detail {
 struct CloudSheet {
     double height;     // metres
     Vec2 scale;        // metres per unit of noise, along and across the wind
-    double wind;       // azimuth, radians
+    Vec2 wind;         // where it blows to, of length 1
     double warp;       // how far slower noise drags the pattern, in units of noise
     double low, high;  // noise values of clear sky and of the thickest cloud
     double patches;    // how strongly it gathers

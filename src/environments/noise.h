@@ -14,6 +14,11 @@ struct Vec2 {
     double x = 0, y = 0;
 };
 
+/// The unit vector at an angle from +x, in radians.
+[[nodiscard]] inline Vec2 heading(double angle) {
+    return {std::cos(angle), std::sin(angle)};
+}
+
 /// A noise value, about -1 to 1, and its derivatives.
 struct NoiseSample {
     double value = 0, dx = 0, dy = 0;

@@ -14,7 +14,7 @@
 namespace mirrorball::detail {
 namespace {
 
-constexpr double kDetail = 0.2 * kPi / 180;
+constexpr double kDetail = 0.28 * kPi / 180;
 
 const AtmosphereSettings kAir{.sun_elevation = 56 * kPi / 180,
                               .sun_azimuth = -38 * kPi / 180,
@@ -25,7 +25,7 @@ const AtmosphereSettings kAir{.sun_elevation = 56 * kPi / 180,
 const std::array kSheets{
     CloudSheet{.height = 1700,
                .scale = {2300, 2000},
-               .wind = radians(35),
+               .wind = heading(radians(35)),
                .warp = 0.15,
                .low = 0.2,
                .high = 1.05,
@@ -36,7 +36,7 @@ const std::array kSheets{
                .pattern = {7, 0.55, 401}},
     CloudSheet{.height = 9500,
                .scale = {24000, 4500},
-               .wind = radians(70),
+               .wind = heading(radians(70)),
                .warp = 0.4,
                .low = 0.0,
                .high = 1.4,

@@ -22,7 +22,7 @@ namespace {
 constexpr double kFloor = -1.25;
 const Vec3d kRoomCentre{0, 1.05, 0}, kRoomHalfSize{4.6, 2.3, 4.6};
 constexpr double kRounding = 2.1;
-constexpr double kWallAlbedo = 0.014, kFloorAlbedo = 0.22;
+constexpr double kWallAlbedo = 0.006, kFloorAlbedo = 0.22;
 constexpr double kStray = 0.01;  // light in the room that comes from nowhere in particular
 
 // A rectangle of light with a rounded rim. It shines to one side: toward the viewer.
@@ -37,7 +37,7 @@ struct Softbox {
 
 const std::array kSoftboxes{
     // key: large, high to the left ahead, warm white
-    Softbox{{-2.3, 1.5, -2.3}, 0.9, 1.2, radians(-8), {9.0, 8.4, 7.6}, 0.75, 1, 1},
+    Softbox{{-2.3, 1.5, -2.3}, 0.9, 1.2, radians(-8), {14.0, 13.0, 11.8}, 0.75, 1, 1},
     // fill: larger and weak, to the right, cool
     Softbox{{3.3, 0.7, -0.9}, 1.1, 1.4, radians(4), {0.62, 0.75, 0.92}, 0.7, 1, 1},
     // two strip lights behind that draw bright rims
@@ -56,8 +56,8 @@ struct Wash {
     Vec3d radiance;
 };
 const std::array kWashes{
-    Wash{direction_at(radians(9), radians(12)), radians(34), {0.030, 0.062, 0.105}},
-    Wash{direction_at(radians(14), radians(-172)), radians(42), {0.050, 0.028, 0.036}},
+    Wash{direction_at(radians(9), radians(12)), radians(27), {0.036, 0.072, 0.120}},
+    Wash{direction_at(radians(14), radians(-172)), radians(31), {0.050, 0.028, 0.036}},
 };
 
 // A softbox in the frame that it shines from.

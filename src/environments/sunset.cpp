@@ -19,13 +19,13 @@
 namespace mirrorball::detail {
 namespace {
 
-constexpr double kDetail = 0.2 * kPi / 180;
+constexpr double kDetail = 0.25 * kPi / 180;
 
 const AtmosphereSettings kAir{.sun_elevation = 2.4 * kPi / 180,
                               .sun_azimuth = 24 * kPi / 180,
                               .haze = 4.5,
                               .ground_albedo = Vec3d(0.06),
-                              .exposure = 7};
+                              .exposure = 5};
 
 // Clouds
 // -------------------------------------------------------------------------------------------
@@ -33,7 +33,7 @@ const AtmosphereSettings kAir{.sun_elevation = 2.4 * kPi / 180,
 const std::array kSheets{
     CloudSheet{.height = 4200,
                .scale = {3400, 1900},
-               .wind = radians(-38),
+               .wind = heading(radians(-38)),
                .warp = 0.18,
                .low = 0.12,
                .high = 1.0,
@@ -44,7 +44,7 @@ const std::array kSheets{
                .pattern = {7, 0.6, 11}},
     CloudSheet{.height = 9500,
                .scale = {30000, 4200},
-               .wind = radians(-62),
+               .wind = heading(radians(-62)),
                .warp = 0.35,
                .low = -0.2,
                .high = 1.25,
@@ -62,6 +62,9 @@ constexpr double kEyeHeight = 7;           // metres
 constexpr double kSlopeVariance = 0.0135;  // Cox and Munk's, both directions, a wind of 2 m/s
 constexpr double kWaveLength = 9;          // the longest, metres
 constexpr int kWaveOctaves = 6;
+// Crests lie across the wind, which blows from the sun's left; each octave veers a little.
+const std::array<Vec2, kWaveOctaves> kWaveHeadings{heading(0.9),   heading(1.05), heading(1.2),
+                                                   heading(-0.15), heading(0.0),  heading(0.15)};
 const Vec3d kUpwelling{0.008, 0.034, 0.046};  // share of the irradiance that comes back out, per sr
 
 // Schlick's approximation for water, n = 1.333.
@@ -105,10 +108,7 @@ class Sunset final : public Environment {
             const double footprint = kDetail * distance / -direction.y;
             const double fade = std::clamp(1.5 - 3 * footprint / length, 0.0, 1.0);
             if (fade == 0) break;
-            // Crests lie across the wind, which blows from the sun's left; each octave veers a
-            // little.
-            const double veer = 0.9 + 0.5 * (i % 3) - 0.35 * i;
-            const double c = std::cos(veer), s = std::sin(veer);
+            const auto [c, s] = kWaveHeadings[i];
             const NoiseSample n =
                 noise({(c * x + s * z) / length, 0.45 * (c * z - s * x) / length}, 200 + i);
             // Each octave has its share of the variance; a unit of noise has a mean square

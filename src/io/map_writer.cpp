@@ -63,16 +63,14 @@ class FaceEncoder {
     }
 
   private:
-    void clear_unused(Image& image) {
+    // Used parts are round: the unused texels of a row are at its two ends, equally many.
+    void clear_unused(Image& image) const {
         const int width = image.width(), height = image.height();
-        if (std::int64_t(solid_angles_.size()) != image.texel_count()) {
-            solid_angles_ = solid_angle_table(map_.projection, width, height);
-        }
         for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                if (solid_angles_[std::size_t(y) * width + x] == 0) {
-                    image.set_rgb(x, y, Vec3f(0, 0, 0));
-                }
+            for (int x = 0; x < width / 2; ++x) {
+                if (texel_solid_angle(map_.projection, width, height, x, y) > 0) break;
+                image.set_rgb(x, y, Vec3f(0, 0, 0));
+                image.set_rgb(width - 1 - x, y, Vec3f(0, 0, 0));
             }
         }
     }
@@ -97,7 +95,6 @@ class FaceEncoder {
     TexelFormat format_;
     std::string target_;
     float lowest_, largest_;  // that all three channels hold
-    std::vector<double> solid_angles_;
     std::int64_t clipped_texel_count_ = 0;
     std::vector<Vec3d> lost_flux_;
 };

@@ -13,7 +13,10 @@ namespace {
 // A cell stands for its children while its radius is at most this share of the scale on which the
 // lobe varies over it. Light is taken to come from where it comes on average, so the error goes with
 // the square of this; the time goes with its inverse square.
-constexpr double kOpening = 0.15;
+constexpr double kOpening = 0.1;
+
+// A lobe has a crease at its horizon; cells that lie across it are opened further.
+constexpr double kCreaseOpening = 0.02;
 
 // Light that weighs less than this share of the axis's is left out.
 constexpr double kNegligible = 1e-9;
@@ -158,8 +161,9 @@ void LightTree::visit_cell(Walk& walk, int level, int face, int x, int y) const 
     const double chord2 = 2 - 2 * cosine, radius = cell.radius, beyond = lobe.reach + radius;
     if (chord2 > beyond * beyond) return;
     const double scale2 = lobe.scale * lobe.scale + (lobe.power_tail ? chord2 : 0);
+    const double opening = std::abs(cosine) < radius ? kCreaseOpening : kOpening;
     const bool finest = level + 1 == static_cast<int>(levels_.size());
-    if (finest || radius * radius <= kOpening * kOpening * scale2) {
+    if (finest || radius * radius <= opening * opening * scale2) {
         const double weight = lobe.kernel(cosine);
         walk.sum += Vec3d(cell.flux) * weight;
         walk.weight += weight * cell.solid_angle;

@@ -246,16 +246,21 @@ TEST_F(MapWriter, RefusesTexelsThatAreNoNumber) {
 }
 
 TEST_F(MapWriter, WritesUnusedTexelsAsZero) {
-    EnvironmentMap map = make_environment_map(Projection::sphere, 8);
-    for (float& value : map.levels[0].faces[0].values()) value = 5;
-    map.levels[0].faces[0].set_rgb(7, 0, {kNan, kNan, 1e30f});
-    write_map(path("ball.pfm"), map);
-    const Image image = read_image(path("ball.pfm"));
-    for (const auto& [x, y] : {std::pair(0, 0), {7, 0}, {0, 7}, {7, 7}}) {
-        EXPECT_EQ(image.rgb(x, y), Vec3f(0, 0, 0));
+    for (const int size : {8, 9, 64}) {
+        EnvironmentMap map = make_environment_map(Projection::sphere, size);
+        for (float& value : map.levels[0].faces[0].values()) value = 5;
+        map.levels[0].faces[0].set_rgb(size - 1, 0, {kNan, kNan, 1e30f});
+        write_map(path("ball.pfm"), map);
+        const Image image = read_image(path("ball.pfm"));
+        const std::vector<double> table = solid_angle_table(Projection::sphere, size, size);
+        for (int y = 0; y < size; ++y) {
+            for (int x = 0; x < size; ++x) {
+                const bool used = table[std::size_t(y) * size + x] > 0;
+                EXPECT_EQ(image.rgb(x, y), used ? Vec3f(5, 5, 5) : Vec3f(0, 0, 0)) << x << ' ' << y;
+            }
+        }
+        EXPECT_EQ(table[0], 0);
     }
-    EXPECT_EQ(image.rgb(1, 1), Vec3f(5, 5, 5));
-    EXPECT_EQ(image.rgb(0, 3), Vec3f(5, 5, 5));
 }
 
 // A face of one texel is a sixth of the sphere: 2/3 pi.

@@ -1,0 +1,161 @@
+// mirrorball bake: everything that a renderer needs of an environment, and a report that shows it.
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <mirrorball/error.h>
+#include <mirrorball/prefilter.h>
+
+#include "bake.h"
+#include "interrupt.h"
+#include "io/file.h"
+#include "verbs.h"
+
+namespace mirrorball::cli {
+namespace {
+
+constexpr std::size_t kMostPhong = 6;
+
+std::vector<Lobe> parse_exponents(const std::string& text) {
+    std::set<double, std::greater<>> exponents;  // the sharpest first: it needs the largest level
+    for (const std::string& part : split(text, ',')) {
+        exponents.insert(parse_real_number(part, 1, 1e5));
+    }
+    if (exponents.size() > kMostPhong) {
+        throw Error(Errc::usage, fmt::format("found {} exponents; at most {} levels fit a chain",
+                                             exponents.size(), kMostPhong));
+    }
+    std::vector<Lobe> lobes;
+    for (const double exponent : exponents) lobes.push_back({Lobe::Kind::phong, exponent});
+    return lobes;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    detail::OutputFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+void write_json(const std::filesystem::path& path, const Json& json) {
+    write_text(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void name_files(Bake& bake) {
+    bake.environment.file = "environment.ktx2";
+    bake.environment.use =
+        "The environment itself as a cube, for backgrounds and mirrors; "
+        "box-filtered mips.";
+    bake.specular.file = "specular.ktx2";
+    bake.specular.use = "Look up by the reflection vector, at the level of the roughness.";
+    bake.phong.file = "phong.ktx2";
+    bake.phong.use = "Look up by the reflection vector; one level per exponent.";
+    bake.diffuse.file = "diffuse.ktx2";
+    bake.diffuse.use = "Irradiance: look up by the normal, times albedo / pi.";
+}
+
+// What the source and the results hold; once before anything is read and once with what was read.
+void check_sizes(const Bake& bake, const Shared& shared) {
+    const BakeOptions& options = bake.options;
+    std::uint64_t bytes = bytes_held(bake.source.map);
+    for (const int size : {options.size, options.diffuse_size, options.environment_size}) {
+        if (size > 0) bytes += bytes_needed(Projection::cube, size, true);
+    }
+    check_memory(bytes, "the result", shared);
+}
+
+void print_result(const Bake& bake, const Shared& shared) {
+    if (shared.json) return print_json(bake_json(bake));
+    if (shared.quiet) return;
+    std::string text;
+    for (const BakedMap* baked : {&bake.environment, &bake.specular, &bake.phong, &bake.diffuse}) {
+        text += fmt::format("{:<20} {}, {}\n", baked->file, shape_text(baked->map),
+                            bytes_text(baked->written.byte_count));
+    }
+    double seconds = 0;
+    for (const Timing& timing : bake.timings) seconds += timing.seconds;
+    text += fmt::format(
+        "irradiance-sh.json   9 coefficients\n"
+        "bake.json            all figures\n"
+        "{}  open this to see it; {:.1f} s in all\n",
+        (std::filesystem::path(bake.options.output) / "index.html").string(), seconds);
+    print(text);
+}
+
+int run(const BakeOptions& options, const Shared& shared) {
+    Bake bake;
+    bake.options = options;
+    check_sizes(bake, shared);
+    name_files(bake);
+    TemporaryFolder folder(options.output);
+    Stopwatch watch;
+    bake.source = load(options.input, shared);
+    choose_environment_size(bake);
+    check_sizes(bake, shared);
+    bake.timings.push_back({"reading", watch.lap()});
+    {
+        ProgressBar bar(shared);
+        compute_maps(bake, bar);
+        write_maps(bake, folder.path());
+        watch.lap();
+        write_pictures(bake, folder.path(), bar.stage("Pictures", 0.2));
+        bake.timings.push_back({"pictures", watch.lap()});
+    }
+    write_json(folder.path() / "irradiance-sh.json", harmonics_json(bake));
+    write_json(folder.path() / "bake.json", bake_json(bake));
+    write_text(folder.path() / "index.html", report_html(bake));
+    stop_if_interrupted();
+    folder.move_to(options.output);
+    for (const BakedMap* baked : {&bake.environment, &bake.specular, &bake.phong, &bake.diffuse}) {
+        tell_clipped(baked->file, baked->written, shared);
+    }
+    print_result(bake, shared);
+    return 0;
+}
+
+}  // namespace
+
+Command bake_command(Shared& shared) {
+    auto options = std::make_shared<BakeOptions>();
+    options->phong = parse_exponents("10,100,1000");
+    Command command{
+        .name = "bake",
+        .summary = "All that a renderer needs of an environment, and a page that shows it."};
+    add_input_argument(command, options->input);
+    command.options = {
+        {"-o,--output", "DIR", "folder for the results; made when it is not there",
+         text(options->output), file_choices(), true},
+        {"--size", "N", "edge of a face of the specular chain [256]",
+         whole_number(options->size, 16, kLargestSize)},
+        {"--levels", "N", "of the specular chain [down to 16 texels]",
+         whole_number(options->level_count, 2, 16)},
+        {"--mapping", "PRESET", "of roughness to levels [gltf]", text(options->mapping),
+         mapping_choices()},
+        {"--phong", "N,N,...", "exponents, one level each, the sharpest first [10,100,1000]",
+         parsed(options->phong, parse_exponents)},
+        {"--environment-size", "N", "edge of a face of the environment [keeps the resolution]",
+         whole_number(options->environment_size, 1, kLargestSize)},
+        {"--diffuse-size", "N", "edge of a face of the irradiance map [64]",
+         whole_number(options->diffuse_size, 1, kLargestSize)},
+        {"--format",
+         "FORMAT",
+         "of a texel [rgba16f]",
+         parsed(options->format, parse_texel_format),
+         {{"rgba16f", "rgba32f", "rgb9e5", "r11g11b10f"}, true}}};
+    add_input_options(command, options->input);
+    add_shared_options(command, shared);
+    command.notes = {
+        "DIR gets environment.ktx2 (cube with mips), specular.ktx2 (GGX, one level per roughness), "
+        "phong.ktx2 (one level per exponent, each of half the size), diffuse.ktx2 (irradiance), "
+        "irradiance-sh.json (nine coefficients), bake.json (all figures) and index.html with its "
+        "pictures. All of them appear together at the end, or none."};
+    command.examples = {"mirrorball bake studio.hdr -o studio",
+                        "mirrorball bake builtin:sunset -o sunset --size 512 --mapping filament",
+                        "mirrorball bake faces/%s.exr -o room --phong 20,200"};
+    command.run = [options, &shared] { return run(*options, shared); };
+    return command;
+}
+
+}  // namespace mirrorball::cli

@@ -1,0 +1,95 @@
+// What `mirrorball bake` makes, on its way from the options to the files and the report.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <mirrorball/harmonics.h>
+#include <mirrorball/io.h>
+
+#include "options.h"
+#include "output.h"
+#include "progress.h"
+
+namespace mirrorball::cli {
+
+struct BakeOptions {
+    Input input;
+    std::string output, mapping = "gltf";
+    std::vector<Lobe> phong;
+    int size = 256, level_count = 0, environment_size = 0, diffuse_size = 64;
+    TexelFormat format = TexelFormat::rgba16f;
+};
+
+/// One level of a result, as figures.
+struct LevelFacts {
+    int level, size;
+    std::optional<Lobe> lobe;
+    LevelStatistics statistics;
+    double seam_ratio;
+    /// This level's flux over what the source's flux should have become, per channel.
+    Vec3d flux_ratio;
+};
+
+/// One file of the result.
+struct BakedMap {
+    std::string file, use;  ///< "specular.ktx2"; what a renderer does with it
+    EnvironmentMap map;
+    std::vector<LevelFacts> facts;
+    WriteReport written;
+};
+
+struct Timing {
+    std::string work;
+    double seconds;
+};
+
+struct Bake {
+    BakeOptions options;
+    LoadedMap source;
+    LevelStatistics source_statistics;
+    BakedMap environment, specular, phong, diffuse;
+    Harmonics radiance;
+    double harmonics_error =
+        0;                ///< of E(n) from nine coefficients, relative RMSE over the diffuse map
+    double exposure = 1;  ///< of the pictures
+    std::vector<Timing> timings;
+};
+
+/// Seconds since it was made or last asked.
+class Stopwatch {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - start_).count();
+        start_ = now;
+        return seconds;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Sets the size of the environment's faces where the options leave it to the source.
+void choose_environment_size(Bake& bake);
+/// The maps, from the source (bake_maps.cpp).
+void compute_maps(Bake& bake, ProgressBar& bar);
+/// The .ktx2 files; sets `written` of each map.
+void write_maps(Bake& bake, const std::filesystem::path& folder);
+/// The tone-mapped PNGs that the report shows (bake_pictures.cpp).
+void write_pictures(const Bake& bake, const std::filesystem::path& folder,
+                    const Progress& progress);
+
+/// bake.json and irradiance-sh.json (bake_json.cpp).
+[[nodiscard]] Json bake_json(const Bake& bake);
+[[nodiscard]] Json harmonics_json(const Bake& bake);
+
+/// index.html (report.cpp).
+[[nodiscard]] std::string report_html(const Bake& bake);
+extern const char* const kReportStyle;
+
+inline constexpr const char* kPictureFolder = "pictures";
+
+}  // namespace mirrorball::cli

@@ -1,0 +1,27 @@
+// Chains: prefiltered levels of halving size in one map.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <mirrorball/prefilter.h>
+
+namespace mirrorball::cli {
+
+/// "ggx:0.1,ggx:0.5" as it stands; "ggx" or "phong" alone is the chain that `mapping` gives for
+/// `level_count` levels (empty: gltf for ggx, playcanvas for phong). \throws Error(Errc::usage)
+[[nodiscard]] std::vector<Lobe> parse_lobes(const std::string& text, const std::string& mapping,
+                                            int level_count);
+
+/// One target per lobe, each of half the size of the one before.
+/// \throws Error(Errc::usage) if the last would have no texel
+[[nodiscard]] std::vector<PrefilterTarget> chain_targets(const std::vector<Lobe>& lobes,
+                                                         Projection projection, int size,
+                                                         const Axes& axes);
+[[nodiscard]] EnvironmentMap join_levels(std::vector<EnvironmentMap> levels);
+
+/// Levels from `size` down to the last that has 16 texels or more: fewer cannot show even the
+/// widest lobe without visible facets between their centres.
+[[nodiscard]] int usual_level_count(int size);
+
+}  // namespace mirrorball::cli

@@ -1,0 +1,102 @@
+// mirrorball: finds the verb, runs it on the threads asked for, turns errors into exit codes.
+#include <algorithm>
+#include <cstdio>
+#include <new>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <mirrorball/error.h>
+
+#include "interrupt.h"
+#include "output.h"
+#include "verbs.h"
+
+namespace mirrorball::cli {
+namespace {
+
+constexpr int kUsage = 2;
+
+int exit_code(Errc code) {
+    switch (code) {
+        case Errc::usage:
+            return kUsage;
+        case Errc::cannot_read:
+            return 3;
+        case Errc::cannot_write:
+            return 4;
+        case Errc::unsupported:
+            return 5;
+        case Errc::cancelled:
+            return kInterruptedExitCode;
+    }
+    return kUsage;
+}
+
+std::vector<Command> all_commands(Shared& shared) {
+    std::vector<Command> commands = {info_command(shared),      convert_command(shared),
+                                     prefilter_command(shared), bake_command(shared),
+                                     compare_command(shared),   sky_command(shared)};
+    commands.push_back(completion_command(shared, commands));
+    return commands;
+}
+
+const Command& find_verb(const std::vector<Command>& commands, const std::string& name) {
+    std::vector<std::string> names;
+    for (const Command& command : commands) {
+        if (command.name == name) return command;
+        names.push_back(command.name);
+    }
+    throw Error(Errc::usage, unknown("a verb", name, names));
+}
+
+// TBB gives an arena no more threads than the whole program may have, so that is raised too.
+int run_on_threads(int threads, const std::function<int()>& run) {
+    if (threads == 0) return run();
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    return arena.execute(run);
+}
+
+int run(const std::vector<std::string>& arguments) {
+    Shared shared;
+    const std::vector<Command> commands = all_commands(shared);
+    if (arguments.empty()) {
+        fmt::print(stderr, "{}", help_text(commands));
+        return kUsage;
+    }
+    const std::string& verb = arguments.front();
+    if (verb == "--help" || verb == "-h") return print(help_text(commands)), 0;
+    if (verb == "--version") return print("mirrorball " MIRRORBALL_VERSION "\n"), 0;
+
+    const Command& command = find_verb(commands, verb);
+    if (parse(command, {arguments.begin() + 1, arguments.end()}) == Parsed::help) {
+        return print(help_text(command)), 0;
+    }
+    return run_on_threads(shared.threads, command.run);
+}
+
+int report(int code, const std::string& message) {
+    fmt::print(stderr, "mirrorball: {}\n", message);
+    return code;
+}
+
+}  // namespace
+}  // namespace mirrorball::cli
+
+int main(int argc, char** argv) {
+    using namespace mirrorball;
+    cli::watch_for_interrupts();
+    try {
+        return cli::run({argv + 1, argv + argc});
+    } catch (const Error& error) {
+        const bool stopped = error.code() == Errc::cancelled;
+        return cli::report(cli::exit_code(error.code()), stopped ? "interrupted" : error.what());
+    } catch (const std::bad_alloc&) {
+        return cli::report(cli::kUsage, "not enough memory; a smaller --size needs less");
+    } catch (const std::exception& error) {
+        return cli::report(cli::kUsage, error.what());
+    }
+}

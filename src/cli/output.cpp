@@ -1,0 +1,84 @@
+#include "output.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <mirrorball/error.h>
+
+#include "options.h"
+
+namespace mirrorball::cli {
+
+void print(const std::string& text) {
+    errno = 0;
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    if (!written || std::fflush(stdout) != 0) {
+        throw Error(Errc::cannot_write, fmt::format("standard output: {}", std::strerror(errno)));
+    }
+}
+
+// Names of files need not be UTF-8; what is not is shown by a replacement character.
+void print_json(const Json& json) {
+    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void tell(const Shared& shared, const std::string& note) {
+    if (!shared.quiet) fmt::print(stderr, "mirrorball: note: {}\n", note);
+}
+
+std::string figure(double value) {
+    return fmt::format("{:.4g}", value);
+}
+
+std::string figures(const Vec3d& value) {
+    return fmt::format("{:.4g} {:.4g} {:.4g}", value.x, value.y, value.z);
+}
+
+Json to_json(const Vec3d& value) {
+    return {value.x, value.y, value.z};
+}
+Json to_json(const Vec3f& value) {
+    return {value.x, value.y, value.z};
+}
+
+std::string shape_text(const EnvironmentMap& map) {
+    const int faces = face_count(map.projection);
+    const std::string count = faces > 1 ? fmt::format("{} x ", faces) : "";
+    std::string text =
+        fmt::format("{}, {}{} x {}", name(map.projection), count, map.width(), map.height());
+    if (map.level_count() > 1) text += fmt::format(", {} levels", map.level_count());
+    return text;
+}
+
+Json to_json(const std::string& target, const EnvironmentMap& map, const WriteReport& report) {
+    return {{"file", target},
+            {"bytes", report.byte_count},
+            {"projection", name(map.projection)},
+            {"width", map.width()},
+            {"height", map.height()},
+            {"levels", map.level_count()},
+            {"axes", to_string(map.axes)},
+            {"clipped_texels", report.clipped_texel_count},
+            {"lost_flux", to_json(report.lost_flux)}};
+}
+
+void tell_clipped(const std::string& target, const WriteReport& report, const Shared& shared) {
+    if (report.clipped_texel_count == 0) return;
+    tell(shared, fmt::format("{}: {} texels were brighter than the format holds and are clipped; "
+                             "flux lost: {}",
+                             target, report.clipped_texel_count, figures(report.lost_flux)));
+}
+
+void print_written(const std::string& target, const EnvironmentMap& map, const WriteReport& report,
+                   const Shared& shared) {
+    tell_clipped(target, report, shared);
+    if (shared.json) return print_json(to_json(target, map, report));
+    if (shared.quiet) return;
+    print(fmt::format("{}: {}, {}\n", target, shape_text(map), bytes_text(report.byte_count)));
+}
+
+}  // namespace mirrorball::cli

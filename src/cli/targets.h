@@ -1,0 +1,23 @@
+// Where results go: what every verb that writes a map offers, and checks before it begins to work.
+#pragma once
+
+#include <string>
+
+#include <mirrorball/io.h>
+
+#include "command.h"
+
+namespace mirrorball::cli {
+
+/// --format and --layout.
+void add_write_options(Command& command, MapWriteOptions& options);
+/// Help of -o: the endings that maps can be written to.
+[[nodiscard]] std::string output_help();
+
+/// Finds out what would fail at the end of long work: an ending or a texel format that there is
+/// not, a folder that is not there. \throws Error(Errc::usage), Error(Errc::cannot_write)
+void check_target(const std::string& target, const MapWriteOptions& options);
+/// Whether the file that the name stands for can hold more than one level.
+[[nodiscard]] bool holds_levels(const std::string& target);
+
+}  // namespace mirrorball::cli
