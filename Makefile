@@ -1,0 +1,63 @@
+# Short names for the usual jobs. Each installs the packages that it misses
+# (scripts/install-packages.sh), configures, builds and runs; none ever asks a question.
+
+.DEFAULT_GOAL := build
+.PHONY: build demo test bench asan tsan fuzz format install clean help
+
+PREFIX ?= /usr/local
+INPUT ?= builtin:sunset
+DEMO ?= demo
+# More options for CMake: make CONFIGURE=-DCMAKE_CXX_COMPILER=clang++
+CONFIGURE ?=
+PROGRAM := build/release/mirrorball
+
+help:  ## list the jobs
+	@sed -n 's/^\([a-z]*\):.*## /    make \1@/p' $(MAKEFILE_LIST) | awk -F@ '{ printf "%-18s %s\n", $$1, $$2 }'
+
+build:  ## build the library, the program and the tests (Release, in build/release)
+	@scripts/install-packages.sh build test
+	@cmake --preset release $(CONFIGURE)
+	@cmake --build --preset release
+
+demo:  ## bake the built-in sunset into ./demo and say where its page is
+	@scripts/install-packages.sh build test
+	@cmake --preset release $(CONFIGURE)
+	@cmake --build --preset release --target mirrorball_program
+	$(PROGRAM) bake $(INPUT) -o $(DEMO)
+	@printf '\nOpen this page in a browser:  %s\n' '$(abspath $(DEMO))/index.html'
+	@printf 'Bake a panorama of your own:  %s bake FILE.hdr -o DIR\n' '$(PROGRAM)'
+
+test: build  ## build everything and run all tests
+	@ctest --preset release
+
+bench:  ## build and run the benchmarks
+	@scripts/install-packages.sh build test bench
+	@cmake --preset release $(CONFIGURE) -DMIRRORBALL_BUILD_BENCHMARKS=ON
+	@cmake --build --preset release
+	@build/release/mirrorball_benchmarks --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
+
+asan:  ## build and run the tests under the address and undefined-behaviour sanitizers
+	@scripts/install-packages.sh build test
+	@cmake --preset asan $(CONFIGURE)
+	@cmake --build --preset asan
+	@ctest --preset asan
+
+tsan:  ## build and run the tests under the thread sanitizer
+	@scripts/install-packages.sh build test
+	@cmake --preset tsan $(CONFIGURE)
+	@cmake --build --preset tsan
+	@ctest --preset tsan
+
+fuzz:  ## feed each decoder malformed files for a bounded number of runs
+	@scripts/install-packages.sh build test fuzz
+	@scripts/fuzz.sh
+
+format:  ## lay out all sources by .clang-format
+	@scripts/install-packages.sh format
+	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+install: build  ## install the program, the library and its CMake package under PREFIX
+	@cmake --install build/release --prefix '$(PREFIX)'
+
+clean:  ## remove everything that was built
+	@rm -rf build
