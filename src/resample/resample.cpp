@@ -28,7 +28,7 @@ using detail::Rgbx;
 constexpr double kLongestEdge = 4;
 constexpr double kMostSkew = 0.5;
 // Below this many source texels per edge of the target the interpolation is seen, not the average.
-constexpr double kMagnified = 0.35;
+constexpr double kMagnified = 0.5;
 // Near a pole of the source its texels become slivers, and cells cut for their short side everywhere
 // would be many more than there are texels: this many at most.
 constexpr double kMostCellsPerSourceTexel = 4;
