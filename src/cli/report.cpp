@@ -199,7 +199,7 @@ std::string level_facts(const LevelFacts& facts) {
 std::string level_card(const LevelFacts& facts, const std::string& stem) {
     const std::string name = lobe_heading(*facts.lobe);
     return fmt::format(
-        "<figure class=\"card\"><div class=\"well\">{}</div><div class=\"well\">"
+        "<figure class=\"card levels\"><div class=\"well\">{}</div><div class=\"well\">"
         "<div class=\"unfolded\">{}</div></div>"
         "<figcaption><h3>{}</h3><p>Level {} · <code>{}</code></p>{}</figcaption></figure>\n",
         picture(stem + "-ball.png", fmt::format("A ball lit by level {}: {}", facts.level, name),

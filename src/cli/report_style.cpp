@@ -40,11 +40,14 @@ code { font: 0.92em/1.4 ui-monospace, SFMono-Regular, Menlo, Consolas, monospace
   font-variant-numeric: tabular-nums; }
 .tiles dd small { display: block; font-size: 13px; font-weight: 400; color: var(--soft);
   letter-spacing: 0; }
-.grid { display: grid; gap: 16px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 212px), 1fr));
+.grid { display: grid; gap: 0 16px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 212px), 1fr));
   margin-top: 18px; }
 .two { grid-template-columns: repeat(auto-fill, minmax(min(100%, 440px), 1fr)); }
-.card { margin: 0; overflow: hidden; display: flex; flex-direction: column; }
-.well { background: var(--well); padding: 16px; flex: 1; display: flex; align-items: center;
+/* pictures and captions share the rows of the grid, so that a row's captions begin at one height */
+.card { margin: 0; overflow: hidden; display: grid; grid-row: span 2; grid-template-rows: subgrid;
+  row-gap: 0; margin-bottom: 16px; }
+.levels { grid-row: span 3; }
+.well { background: var(--well); padding: 16px; display: flex; align-items: center;
   justify-content: center; gap: 12px; }
 figcaption { padding: 14px 16px 16px; }
 figcaption p { color: var(--soft); font-size: 14px; margin: 4px 0 0; }

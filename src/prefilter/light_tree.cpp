@@ -13,13 +13,13 @@ namespace {
 // A cell stands for its children while its radius is at most this share of the scale on which the
 // lobe varies over it. Light is taken to come from where it comes on average, so the error goes with
 // the square of this; the time goes with its inverse square.
-constexpr double kOpening = 0.1;
+constexpr double kOpening = 0.13;
 
 // A lobe has a crease at its horizon; cells that lie across it are opened further.
-constexpr double kCreaseOpening = 0.02;
+constexpr double kCreaseOpening = 0.03;
 
 // Light that weighs less than this share of the axis's is left out.
-constexpr double kNegligible = 1e-9;
+constexpr double kNegligible = 1e-7;
 
 constexpr int kLargestFace = 1024;
 
@@ -27,9 +27,9 @@ constexpr int kLargestFace = 1024;
 double scale_of(const Lobe& lobe) {
     const double exponent = std::max(lobe.parameter, 1.0);
     switch (lobe.kind) {
-        case Lobe::Kind::phong: return std::min(0.6, 1.7 / std::sqrt(exponent));
-        case Lobe::Kind::blinn_phong: return std::min(0.6, 3.4 / std::sqrt(exponent));
-        case Lobe::Kind::ggx: return std::min(0.5, 1.4 * lobe.parameter * lobe.parameter);
+        case Lobe::Kind::phong: return std::min(0.6, 1.5 / std::sqrt(exponent));
+        case Lobe::Kind::blinn_phong: return std::min(0.6, 3.0 / std::sqrt(exponent));
+        case Lobe::Kind::ggx: return std::min(0.5, 1.2 * lobe.parameter * lobe.parameter);
         default: return 0.6;
     }
 }
@@ -53,13 +53,40 @@ int finest_level(const EnvironmentMap& source) {
     return std::bit_width(std::min(size, unsigned{kLargestFace})) - 1;
 }
 
+// Cells in Morton order: the bits of x and y take turns, x first.
+std::size_t morton(int x, int y) {
+    std::size_t index = 0;
+    for (int bit = 0; (x >> bit) + (y >> bit) > 0; ++bit)
+        index |= static_cast<std::size_t>((x >> bit) & 1) << (2 * bit) |
+                 static_cast<std::size_t>((y >> bit) & 1) << (2 * bit + 1);
+    return index;
+}
+
+struct Place {
+    int x, y;
+};
+Place from_morton(std::size_t index) {
+    Place place{0, 0};
+    for (int bit = 0; index > 0; ++bit, index >>= 2) {
+        place.x |= static_cast<int>(index & 1) << bit;
+        place.y |= static_cast<int>(index >> 1 & 1) << bit;
+    }
+    return place;
+}
+
 double brightness(const Vec3f& flux) { return std::abs(flux.x) + std::abs(flux.y) + std::abs(flux.z); }
 
 }  // namespace
 
 TreeLobe::TreeLobe(const Lobe& lobe)
     : kernel(lobe), integral(lobe.integral()), scale(scale_of(lobe)), reach(reach_of(kernel)),
-      power_tail(lobe.kind == Lobe::Kind::ggx) {}
+      power_tail(lobe.kind == Lobe::Kind::ggx) {
+    if (lobe.kind != Lobe::Kind::phong && lobe.kind != Lobe::Kind::blinn_phong) return;
+    table_scale = kTableSteps / (reach * reach);
+    const double peak = kernel(1);
+    for (int i = 0; i <= kTableSteps; ++i)
+        table.push_back(static_cast<float>(kernel(1 - i / table_scale / 2) / peak));
+}
 
 LightTree::LightTree(const EnvironmentMap& source) : levels_(finest_level(source) + 1) {
     for (int level = 0; level < static_cast<int>(levels_.size()); ++level)
@@ -85,9 +112,9 @@ void LightTree::sort_in(const EnvironmentMap& source) {
                     const FacePoint<double> centre{face, (x + 0.5) / width, (y + 0.5) / height};
                     const Vec3d direction = source.axes.to_world(P::direction(centre));
                     const FacePoint<double> at = Cube::project(direction);
-                    Cell& cell = levels_[level][index(
-                        level, at.face, std::min(static_cast<int>(at.s * size), size - 1),
-                        std::min(static_cast<int>(at.t * size), size - 1))];
+                    const std::size_t place = morton(std::min(static_cast<int>(at.s * size), size - 1),
+                                                     std::min(static_cast<int>(at.t * size), size - 1));
+                    Cell& cell = levels_[level][(static_cast<std::size_t>(at.face) << 2 * level) + place];
                     const Vec3f flux = source.levels[0].faces[face].rgb(x, y) *
                                        static_cast<float>(solid_angle);
                     // a trace of solid angle gives dark cells a direction, too
@@ -102,35 +129,31 @@ void LightTree::sort_in(const EnvironmentMap& source) {
 }
 
 void LightTree::gather_children(int level) {
-    const int size = 1 << level;
-    parallel_for(std::int64_t{6} * size, [&](std::int64_t row) {
-        const int face = static_cast<int>(row / size), y = static_cast<int>(row % size);
-        for (int x = 0; x < size; ++x) {
-            Cell& cell = levels_[level][index(level, face, x, y)];
-            for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1),
-                                         std::pair(1, 1)}) {
-                const Cell& child = levels_[level + 1][index(level + 1, face, 2 * x + dx, 2 * y + dy)];
-                cell.direction += child.direction;
-                cell.flux += child.flux;
-                cell.solid_angle += child.solid_angle;
-            }
+    for (std::size_t i = 0; i < levels_[level].size(); ++i) {
+        Cell& cell = levels_[level][i];
+        for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
+            const Cell& child = levels_[level + 1][k];
+            cell.direction += child.direction;
+            cell.flux += child.flux;
+            cell.solid_angle += child.solid_angle;
         }
-    });
+    }
 }
 
 void LightTree::finish(int level) {
-    const int size = 1 << level;
-    parallel_for(std::int64_t{6} * size, [&](std::int64_t row) {
-        const int face = static_cast<int>(row / size), y = static_cast<int>(row % size);
-        for (int x = 0; x < size; ++x) {
-            Cell& cell = levels_[level][index(level, face, x, y)];
+    const std::size_t size = std::size_t{1} << level, face_cells = size * size;
+    parallel_for(6 * static_cast<std::int64_t>(size), [&](std::int64_t part) {
+        for (std::size_t i = part * size; i < (part + 1) * size; ++i) {
+            Cell& cell = levels_[level][i];
             if (cell.solid_angle == 0) continue;
+            const auto [x, y] = from_morton(i % face_cells);
             const Vec3d sum(cell.direction), centre = sum / sum.length();
             double radius = 0;
             for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1),
                                          std::pair(1, 1)}) {
-                const FacePoint<double> corner{face, static_cast<double>(x + dx) / size,
-                                               static_cast<double>(y + dy) / size};
+                const double edge = 1.0 / static_cast<double>(size);
+                const FacePoint<double> corner{static_cast<int>(i / face_cells), (x + dx) * edge,
+                                               (y + dy) * edge};
                 radius = std::max(radius, (Cube::direction(corner) - centre).length());
             }
             cell.direction = Vec3f(centre);
@@ -153,8 +176,8 @@ struct LightTree::Walk {
     double weight = 0;
 };
 
-void LightTree::visit_cell(Walk& walk, int level, int face, int x, int y) const {
-    const Cell& cell = levels_[level][index(level, face, x, y)];
+void LightTree::visit_cell(Walk& walk, std::size_t level, std::size_t index) const {
+    const Cell& cell = levels_[level][index];
     if (cell.solid_angle == 0) return;
     const TreeLobe& lobe = walk.lobe;
     const double cosine = std::min(1.0, walk.axis.dot(Vec3d(cell.direction)));
@@ -162,38 +185,35 @@ void LightTree::visit_cell(Walk& walk, int level, int face, int x, int y) const 
     if (chord2 > beyond * beyond) return;
     const double scale2 = lobe.scale * lobe.scale + (lobe.power_tail ? chord2 : 0);
     const double opening = std::abs(cosine) < radius ? kCreaseOpening : kOpening;
-    const bool finest = level + 1 == static_cast<int>(levels_.size());
-    if (finest || radius * radius <= opening * opening * scale2) {
-        const double weight = lobe.kernel(cosine);
+    if (level + 1 == levels_.size() || radius * radius <= opening * opening * scale2) {
+        const double weight = lobe.weight(chord2);
         walk.sum += Vec3d(cell.flux) * weight;
         walk.weight += weight * cell.solid_angle;
         return;
     }
-    for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 2; ++i) visit_cell(walk, level + 1, face, 2 * x + i, 2 * y + j);
+    for (std::size_t k = 4 * index; k < 4 * index + 4; ++k) visit_cell(walk, level + 1, k);
 }
 
 // The lit cell nearest to the axis, passing over all that cannot be nearer than the best so far.
-void LightTree::visit_nearest(Nearest& nearest, int level, int face, int x, int y) const {
-    const Cell& cell = levels_[level][index(level, face, x, y)];
+void LightTree::visit_nearest(Nearest& nearest, std::size_t level, std::size_t index) const {
+    const Cell& cell = levels_[level][index];
     if (cell.solid_angle == 0) return;
     const double chord = (Vec3d(cell.direction) - nearest.axis).length();
     if (chord - cell.radius >= nearest.chord) return;
-    if (level + 1 == static_cast<int>(levels_.size())) {
+    if (level + 1 == levels_.size()) {
         if (chord < nearest.chord) nearest.chord = chord, nearest.cell = &cell;
         return;
     }
-    for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 2; ++i) visit_nearest(nearest, level + 1, face, 2 * x + i, 2 * y + j);
+    for (std::size_t k = 4 * index; k < 4 * index + 4; ++k) visit_nearest(nearest, level + 1, k);
 }
 
 Vec3d LightTree::filtered(const TreeLobe& lobe, const Vec3d& axis) const {
     Walk walk{lobe, axis};
-    for (int face = 0; face < 6; ++face) visit_cell(walk, 0, face, 0, 0);
+    for (std::size_t face = 0; face < 6; ++face) visit_cell(walk, 0, face);
     if (walk.weight < std::numeric_limits<double>::min()) {
         // narrower than a texel: the nearest is all that the lobe could see
         Nearest nearest{axis};
-        for (int face = 0; face < 6; ++face) visit_nearest(nearest, 0, face, 0, 0);
+        for (std::size_t face = 0; face < 6; ++face) visit_nearest(nearest, 0, face);
         return Vec3d(nearest.cell->flux) * (lobe.integral / nearest.cell->solid_angle);
     }
     return walk.sum * (lobe.integral / walk.weight);
