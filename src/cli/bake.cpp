@@ -133,7 +133,7 @@ Command bake_command(Shared& shared) {
          whole_number(options->level_count, 2, 16)},
         {"--mapping", "PRESET", "of roughness to levels [gltf]", text(options->mapping),
          mapping_choices()},
-        {"--phong", "N,N,...", "exponents, one level each, the sharpest first [10,100,1000]",
+        {"--phong", "N,N,...", "exponents, one level each; stored from the sharpest [10,100,1000]",
          parsed(options->phong, parse_exponents)},
         {"--environment-size", "N", "edge of a face of the environment [keeps the resolution]",
          whole_number(options->environment_size, 1, kLargestSize)},

@@ -29,6 +29,8 @@ void parallel_for(std::int64_t count, const std::function<void(std::int64_t)>& f
                               if (progress) report(++done_count);
                           }
                       });
+    // the last piece may have found another thread reporting
+    if (progress) report(count);
 }
 
 }  // namespace mirrorball::detail

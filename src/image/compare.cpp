@@ -4,6 +4,8 @@
 
 #include <mirrorball/resample.h>
 
+#include "image/for_each_texel.h"
+
 namespace mirrorball {
 namespace {
 
@@ -12,18 +14,13 @@ bool same_texels(const EnvironmentMap& a, const EnvironmentMap& b, int level) {
            a.width(level) == b.width(level) && a.height(level) == b.height(level);
 }
 
-Difference compare_texels(const Level& a, const Level& b, Projection projection) {
-    const int width = b.width(), height = b.height();
-    const std::vector<double> solid_angles = solid_angle_table(projection, width, height);
+// \pre both are alike in shape
+Difference compare_texels(const EnvironmentMap& a, int level_a, const EnvironmentMap& b, int level_b) {
     const auto for_each = [&](auto&& f) {
-        for (int face = 0; face < static_cast<int>(b.faces.size()); ++face) {
-            std::size_t i = 0;
-            for (int y = 0; y < height; ++y)
-                for (int x = 0; x < width; ++x, ++i)
-                    if (solid_angles[i] > 0)
-                        f(face, x, y, Vec3d(a.faces[face].rgb(x, y)),
-                          Vec3d(b.faces[face].rgb(x, y)), solid_angles[i]);
-        }
+        detail::for_each_texel(b, level_b, [&](int face, int x, int y, double solid_angle) {
+            f(face, x, y, Vec3d(a.levels[level_a].faces[face].rgb(x, y)),
+              Vec3d(b.levels[level_b].faces[face].rgb(x, y)), solid_angle);
+        });
     };
 
     double error = 0, power = 0, total = 0;
@@ -58,10 +55,10 @@ Difference compare_texels(const Level& a, const Level& b, Projection projection)
 }  // namespace
 
 Difference compare(const EnvironmentMap& a, const EnvironmentMap& b, int level) {
-    if (same_texels(a, b, level)) return compare_texels(a.levels[level], b.levels[level], b.projection);
+    if (same_texels(a, b, level)) return compare_texels(a, level, b, level);
     const EnvironmentMap source{a.projection, a.axes, {a.levels[level]}};
     const EnvironmentMap resampled = resample(source, b.projection, b.width(level), b.axes);
-    return compare_texels(resampled.levels[0], b.levels[level], b.projection);
+    return compare_texels(resampled, 0, b, level);
 }
 
 }  // namespace mirrorball

@@ -7,22 +7,10 @@
 #include <fmt/format.h>
 #include <mirrorball/error.h>
 
+#include "image/for_each_texel.h"
+
 namespace mirrorball {
 namespace {
-
-// Calls f(face, x, y, solid angle) for each used texel of a level, rows from the top.
-template <class F>
-void for_each_texel(const EnvironmentMap& map, int level, F&& f) {
-    const Level& l = map.levels[level];
-    const std::vector<double> solid_angles =
-        solid_angle_table(map.projection, l.width(), l.height());
-    for (int face = 0; face < static_cast<int>(l.faces.size()); ++face) {
-        std::size_t i = 0;
-        for (int y = 0; y < l.height(); ++y)
-            for (int x = 0; x < l.width(); ++x, ++i)
-                if (solid_angles[i] > 0) f(face, x, y, solid_angles[i]);
-    }
-}
 
 double step(const Vec3f& a, const Vec3f& b) {
     return std::abs(double{a.x} - b.x) + std::abs(double{a.y} - b.y) + std::abs(double{a.z} - b.z);
@@ -111,7 +99,7 @@ std::uint64_t environment_map_bytes(Projection projection, std::int64_t size) {
 
 Vec3d flux(const EnvironmentMap& map, int level) {
     Vec3d sum(0.0);
-    for_each_texel(map, level, [&](int face, int x, int y, double solid_angle) {
+    detail::for_each_texel(map, level, [&](int face, int x, int y, double solid_angle) {
         sum += Vec3d(map.levels[level].faces[face].rgb(x, y)) * solid_angle;
     });
     return sum;
@@ -121,7 +109,7 @@ LevelStatistics statistics(const EnvironmentMap& map, int level) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     LevelStatistics s{Vec3d(0.0), Vec3f(infinity), Vec3f(-infinity), 0, 0, 0, 0};
     double squares = 0;
-    for_each_texel(map, level, [&](int face, int x, int y, double solid_angle) {
+    detail::for_each_texel(map, level, [&](int face, int x, int y, double solid_angle) {
         const Vec3f value = map.levels[level].faces[face].rgb(x, y);
         bool finite = true, negative = false;
         for (int c = 0; c < 3; ++c) {

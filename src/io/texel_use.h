@@ -19,9 +19,7 @@ inline double texel_solid_angle(Projection projection, int width, int height, in
 
 /// Whether faces have unused texels: they have where the projection does not reach their corners.
 inline bool has_unused_texels(Projection projection) {
-    return visit(projection, [](auto p) {
-        return !decltype(p)::covers(FacePoint<double>{0, 0.0, 0.0});
-    });
+    return visit(projection, [](auto p) { return !decltype(p)::fills_square; });
 }
 
 }  // namespace mirrorball::detail

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "image/for_each_texel.h"
 
 namespace mirrorball::detail {
 namespace {
@@ -100,31 +101,16 @@ LightTree::LightTree(const EnvironmentMap& source) : levels_(finest_level(source
 // Until finish(), a cell's direction is the sum of its texels' directions, weighed by their light.
 void LightTree::sort_in(const EnvironmentMap& source) {
     const int level = static_cast<int>(levels_.size()) - 1, size = 1 << level;
-    const int width = source.width(), height = source.height();
-    const std::vector<double> solid_angles = solid_angle_table(source.projection, width, height);
-    visit(source.projection, [&](auto p) {
-        using P = decltype(p);
-        for (int face = 0; face < P::face_count; ++face) {
-            for (int y = 0; y < height; ++y) {
-                for (int x = 0; x < width; ++x) {
-                    const double solid_angle = solid_angles[static_cast<std::size_t>(y) * width + x];
-                    if (solid_angle == 0) continue;
-                    const FacePoint<double> centre{face, (x + 0.5) / width, (y + 0.5) / height};
-                    const Vec3d direction = source.axes.to_world(P::direction(centre));
-                    const FacePoint<double> at = Cube::project(direction);
-                    const std::size_t place = morton(std::min(static_cast<int>(at.s * size), size - 1),
-                                                     std::min(static_cast<int>(at.t * size), size - 1));
-                    Cell& cell = levels_[level][(static_cast<std::size_t>(at.face) << 2 * level) + place];
-                    const Vec3f flux = source.levels[0].faces[face].rgb(x, y) *
-                                       static_cast<float>(solid_angle);
-                    // a trace of solid angle gives dark cells a direction, too
-                    const double weight = brightness(flux) + 1e-6 * solid_angle;
-                    cell.direction += Vec3f(direction * weight);
-                    cell.flux += flux;
-                    cell.solid_angle += static_cast<float>(solid_angle);
-                }
-            }
-        }
+    for_each_direction(source, 0, [&](const Vec3d& direction, const Vec3f& radiance, double solid_angle) {
+        const FacePoint<double> at = Cube::project(direction);
+        const std::size_t place = morton(std::min(static_cast<int>(at.s * size), size - 1),
+                                         std::min(static_cast<int>(at.t * size), size - 1));
+        Cell& cell = levels_[level][(static_cast<std::size_t>(at.face) << 2 * level) + place];
+        const Vec3f flux = radiance * static_cast<float>(solid_angle);
+        // a trace of solid angle gives dark cells a direction, too
+        cell.direction += Vec3f(direction * (brightness(flux) + 1e-6 * solid_angle));
+        cell.flux += flux;
+        cell.solid_angle += static_cast<float>(solid_angle);
     });
 }
 

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <mirrorball/resample.h>
 
-#include "core/parallel.h"
+#include "image/for_each_texel.h"
 #include "prefilter/lobe_kernel.h"
 #include "prefilter/target.h"
 
@@ -21,23 +20,11 @@ struct SourceTexel {
 };
 
 std::vector<SourceTexel> used_texels(const EnvironmentMap& source) {
-    const int width = source.width(), height = source.height();
-    const std::vector<double> solid_angles = solid_angle_table(source.projection, width, height);
     std::vector<SourceTexel> texels;
-    visit(source.projection, [&](auto p) {
-        using P = decltype(p);
-        for (int face = 0; face < P::face_count; ++face) {
-            for (int y = 0; y < height; ++y) {
-                for (int x = 0; x < width; ++x) {
-                    const double solid_angle = solid_angles[static_cast<std::size_t>(y) * width + x];
-                    if (solid_angle == 0) continue;
-                    const FacePoint<double> centre{face, (x + 0.5) / width, (y + 0.5) / height};
-                    texels.push_back({source.axes.to_world(P::direction(centre)), solid_angle,
-                                      Vec3d(source.levels[0].faces[face].rgb(x, y))});
-                }
-            }
-        }
-    });
+    detail::for_each_direction(
+        source, 0, [&](const Vec3d& direction, const Vec3f& radiance, double solid_angle) {
+            texels.push_back({direction, solid_angle, Vec3d(radiance)});
+        });
     return texels;
 }
 
