@@ -19,7 +19,6 @@ namespace mirrorball::detail {
 namespace {
 
 // Metres; the viewer is at the origin.
-constexpr double kFloor = -1.25;
 const Vec3d kRoomCentre{0, 1.05, 0}, kRoomHalfSize{4.6, 2.3, 4.6};
 constexpr double kRounding = 2.1;
 constexpr double kWallAlbedo = 0.006, kFloorAlbedo = 0.22;

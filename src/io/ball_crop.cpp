@@ -34,7 +34,7 @@ int crop_size(const CropCircle& circle) {
 }
 
 void check_crop(const std::string& picture_name, int width, int height, const CropCircle& circle) {
-    const auto [x, y, radius] = circle;
+    const double x = circle.x, y = circle.y, radius = circle.radius;
     const auto fail = [&](const std::string& expected) {
         throw Error(Errc::usage, fmt::format("{}: the circle of radius {} about ({}, {}) {}",
                                              picture_name, radius, x, y, expected));
