@@ -66,6 +66,7 @@ struct Footprints {
     double cuts_s[kBlock], cuts_t[kBlock];
     double area[kBlock];  // in source texels
 
+    [[nodiscard]] bool cut(int i) const { return cuts_s[i] > 1 || cuts_t[i] > 1; }
     // The cells to cut patch i into.
     [[nodiscard]] Grid grid(int i) const {
         double along_s = std::max(1.0, cuts_s[i]), along_t = std::max(1.0, cuts_t[i]);
@@ -86,7 +87,8 @@ class Target {
     virtual ~Target() = default;
     // `count` texels of a row, from x on.
     virtual void texels(int face, int x, int y, int count, Patches& out) const = 0;
-    // Is it entirely in the used part?
+    // Are all texels entirely in the used part? Is this one?
+    virtual bool all_whole() const = 0;
     virtual bool whole(int face, int x, int y) const = 0;
     // Appends the used ones among the cells of a texel, from number `first` on, until the block is
     // full; the number to go on from.
@@ -118,8 +120,8 @@ class TargetOf final : public Target {
         });
     }
 
+    bool all_whole() const override { return P::fills_square; }
     bool whole(int face, int x, int y) const override {
-        if constexpr (P::fills_square) return true;
         return P::covers(point(face, x, y, 0, 0)) && P::covers(point(face, x, y, 1, 0)) &&
                P::covers(point(face, x, y, 0, 1)) && P::covers(point(face, x, y, 1, 1));
     }
@@ -164,8 +166,8 @@ class Source {
   public:
     virtual ~Source() = default;
     virtual void footprints(const Patches& patches, Footprints& out) const = 0;
-    // The mean over each of the first `count` patches as one box.
-    virtual void values(const Footprints& footprints, int count, Rgbx* out) const = 0;
+    // The mean over each of the first `count` patches as one box; of `uncut` ones only, if asked.
+    virtual void values(const Footprints& footprints, int count, bool uncut, Rgbx* out) const = 0;
 };
 
 template <class P>
@@ -182,9 +184,10 @@ class SourceOf final : public Source {
         });
     }
 
-    void values(const Footprints& f, int count, Rgbx* out) const override {
+    void values(const Footprints& f, int count, bool uncut, Rgbx* out) const override {
         detail::vectorized([&]() MIRRORBALL_INLINE_BODY {
-            for (int i = 0; i < count; ++i) out[i] = value(f, i);
+            for (int i = 0; i < count; ++i)
+                if (!uncut || !f.cut(i)) out[i] = value(f, i);
         });
     }
 
@@ -239,14 +242,15 @@ class SourceOf final : public Source {
 // source are done at once; the cells of the others queue up, so that they, too, go by the block.
 class RowResampler {
   public:
-    RowResampler(const Target& target, const Source& source) : target_(target), source_(source) {}
+    RowResampler(const Target& target, const Source& source)
+        : target_(target), source_(source), all_whole_(target.all_whole()) {}
 
     void resample(int face, int y, Image& image, std::span<const double> solid_angles) {
         for (int x0 = 0; x0 < image.width(); x0 += kBlock) {
             const int count = std::min(kBlock, image.width() - x0);
             target_.texels(face, x0, y, count, texels_);
             source_.footprints(texels_, footprints_);
-            source_.values(footprints_, count, values_);
+            source_.values(footprints_, count, true, values_);
             for (int i = 0; i < count; ++i) {
                 is_cut_[i] = false;
                 if (solid_angles[x0 + i] > 0) queue_cells(face, x0 + i, y, i);
@@ -259,8 +263,8 @@ class RowResampler {
 
   private:
     void queue_cells(int face, int x, int y, int i) {
-        const bool whole = target_.whole(face, x, y);
-        if (whole && footprints_.cuts_s[i] <= 1 && footprints_.cuts_t[i] <= 1) return;
+        const bool whole = all_whole_ || target_.whole(face, x, y);
+        if (whole && !footprints_.cut(i)) return;
         Grid grid = footprints_.grid(i);
         if (!whole) grid = {std::max(grid.along_s, kRimCells), std::max(grid.along_t, kRimCells)};
         is_cut_[i] = true;
@@ -280,7 +284,7 @@ class RowResampler {
 
     void finish_queue() {
         source_.footprints(queue_, queue_footprints_);
-        source_.values(queue_footprints_, queue_.count, queue_values_);
+        source_.values(queue_footprints_, queue_.count, false, queue_values_);
         for (int k = 0; k < queue_.count; ++k) {
             const Rgbx& value = queue_values_[k];
             const int i = queue_.owner[k];
@@ -297,6 +301,7 @@ class RowResampler {
 
     const Target& target_;
     const Source& source_;
+    bool all_whole_;
     Patches texels_, queue_;
     Footprints footprints_, queue_footprints_;
     Rgbx values_[kBlock], queue_values_[kBlock];

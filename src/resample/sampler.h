@@ -103,19 +103,15 @@ class Sampler {
         const Weights columns(p.s * width_ - 0.5, width), rows(p.t * height_ - 0.5, height);
         // a box of up to 1 or 2 texels sees 3 or 4 at most along each axis
         const int most = std::max(width, height) <= 1 ? 3 : std::max(width, height) <= 2 ? 4 : 0;
-        if (most > 0 && inside(p.face, columns.first, rows.first, columns.first + most - 1,
-                               rows.first + most - 1)) {
-            const float* texel = level_.faces[p.face].at(columns.first, rows.first);
-            return most == 3 ? weighed<3>(texel, columns, rows) : weighed<4>(texel, columns, rows);
-        }
-        Rgbx sum{};
-        for (int j = 0; j < rows.count; ++j) {
-            Rgbx row{};
-            for (int i = 0; i < columns.count; ++i)
-                row += fetch(p.face, columns.first + i, rows.first + j) * columns.weight[i];
-            sum += row * rows.weight[j];
-        }
-        return sum;
+        const int column_count = most > 0 ? most : columns.count;
+        const int row_count = most > 0 ? most : rows.count;
+        if (!inside(p.face, columns.first, rows.first, columns.first + column_count - 1,
+                    rows.first + row_count - 1))
+            return weighed_across_edges(p.face, columns, rows);
+        const float* texel = level_.faces[p.face].at(columns.first, rows.first);
+        if (most == 3) return weighed(texel, columns, 3, rows, 3);
+        if (most == 4) return weighed(texel, columns, 4, rows, 4);
+        return weighed(texel, columns, column_count, rows, row_count);
     }
 
     static constexpr double kLargestBox = 8;
@@ -167,13 +163,26 @@ class Sampler {
         }
     };
 
-    // The usual box: with no counts to guess and no texel outside. Weights beyond a count are zero.
-    template <int size>
-    Rgbx weighed(const float* texel, const Weights& columns, const Weights& rows) const {
+    // Inlined for counts known beforehand, too, so that the usual boxes have no loops to guess.
+    // Weights beyond a count are zero.
+    [[gnu::always_inline]] Rgbx weighed(const float* texel, const Weights& columns, int column_count,
+                                        const Weights& rows, int row_count) const {
         Rgbx sum{};
-        for (int j = 0; j < size; ++j, texel += 3 * static_cast<std::ptrdiff_t>(width_)) {
+        for (int j = 0; j < row_count; ++j, texel += 3 * static_cast<std::ptrdiff_t>(width_)) {
             Rgbx row{};
-            for (int i = 0; i < size; ++i) row += load_rgbx(texel + 3 * i) * columns.weight[i];
+            for (int i = 0; i < column_count; ++i) row += load_rgbx(texel + 3 * i) * columns.weight[i];
+            sum += row * rows.weight[j];
+        }
+        return sum;
+    }
+
+    [[gnu::noinline]] Rgbx weighed_across_edges(int face, const Weights& columns,
+                                                const Weights& rows) const {
+        Rgbx sum{};
+        for (int j = 0; j < rows.count; ++j) {
+            Rgbx row{};
+            for (int i = 0; i < columns.count; ++i)
+                row += fetch(face, columns.first + i, rows.first + j) * columns.weight[i];
             sum += row * rows.weight[j];
         }
         return sum;
