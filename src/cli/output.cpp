@@ -68,7 +68,7 @@ Json to_json(const std::string& target, const EnvironmentMap& map, const WriteRe
 
 void tell_clipped(const std::string& target, const WriteReport& report, const Shared& shared) {
     if (report.clipped_texel_count == 0) return;
-    tell(shared, fmt::format("{}: {} texels were brighter than the format holds and are clipped; "
+    tell(shared, fmt::format("{}: {} texels were beyond what the format holds and are clipped; "
                              "flux lost: {}",
                              target, report.clipped_texel_count, figures(report.lost_flux)));
 }
