@@ -22,7 +22,7 @@
 //
 // To add one: write include/mirrorball/projections/NAME.h by the example of its neighbours, add the
 // type to `Projections` below and its name to the enumeration. The tests in
-// tests/projection_test.cpp take the list and prove its laws.
+// tests/projection/projection_test.cpp take the list and prove its laws.
 #pragma once
 
 #include <cstddef>
