@@ -1,7 +1,7 @@
 #include <mirrorball/resample.h>
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "core/parallel.h"
 
@@ -19,22 +19,38 @@ Under texels_under(int i, int coarse, int fine) {
     return {static_cast<int>(from / coarse), static_cast<int>((to - 1) / coarse)};
 }
 
-// Mean of the finer level over a rectangle, by the exact solid angle of what each texel has in it.
+// What of the finer level lies under a texel of the coarser: texels, and the exact solid angle of the
+// part of each that does. It is the same for all faces.
+struct Part {
+    int x, y;
+    double solid_angle;
+};
+
 template <class P>
-Vec3f mean_under(const Image& fine, int face, const FaceRect& rect, const Under& columns,
-                 const Under& rows) {
+void parts_under(int x, int y, int width, int height, int fine_width, int fine_height,
+                 std::vector<Part>& parts) {
+    parts.clear();
+    const Under columns = texels_under(x, width, fine_width);
+    const Under rows = texels_under(y, height, fine_height);
+    for (int j = rows.first; j <= rows.last; ++j) {
+        for (int i = columns.first; i <= columns.last; ++i) {
+            const FaceRect part{
+                std::max(static_cast<double>(x) / width, static_cast<double>(i) / fine_width),
+                std::max(static_cast<double>(y) / height, static_cast<double>(j) / fine_height),
+                std::min(static_cast<double>(x + 1) / width, static_cast<double>(i + 1) / fine_width),
+                std::min(static_cast<double>(y + 1) / height,
+                         static_cast<double>(j + 1) / fine_height)};
+            parts.push_back({i, j, P::solid_angle(0, part)});
+        }
+    }
+}
+
+Vec3f mean_of(const std::vector<Part>& parts, const Image& fine) {
     Vec3d sum(0.0);
     double total = 0;
-    for (int y = rows.first; y <= rows.last; ++y) {
-        for (int x = columns.first; x <= columns.last; ++x) {
-            const FaceRect part{std::max(rect.s0, static_cast<double>(x) / fine.width()),
-                                std::max(rect.t0, static_cast<double>(y) / fine.height()),
-                                std::min(rect.s1, static_cast<double>(x + 1) / fine.width()),
-                                std::min(rect.t1, static_cast<double>(y + 1) / fine.height())};
-            const double solid_angle = P::solid_angle(face, part);
-            sum += Vec3d(fine.rgb(x, y)) * solid_angle;
-            total += solid_angle;
-        }
+    for (const Part& part : parts) {
+        sum += Vec3d(fine.rgb(part.x, part.y)) * part.solid_angle;
+        total += part.solid_angle;
     }
     return total > 0 ? Vec3f(sum / total) : Vec3f(0.0f);
 }
@@ -43,20 +59,16 @@ template <class P>
 Level next_level(const Level& fine) {
     const int height = std::max(1, fine.height() / 2), width = P::aspect * height;
     Level coarse;
-    for (int face = 0; face < P::face_count; ++face) {
-        Image& image = coarse.faces.emplace_back(width, height, 3);
-        detail::parallel_for(height, [&](std::int64_t row) {
-            const int y = static_cast<int>(row);
-            const Under rows = texels_under(y, height, fine.height());
-            for (int x = 0; x < width; ++x) {
-                const FaceRect rect{static_cast<double>(x) / width, static_cast<double>(y) / height,
-                                    static_cast<double>(x + 1) / width,
-                                    static_cast<double>(y + 1) / height};
-                image.set_rgb(x, y, mean_under<P>(fine.faces[face], face, rect,
-                                                  texels_under(x, width, fine.width()), rows));
-            }
-        });
-    }
+    for (int face = 0; face < P::face_count; ++face) coarse.faces.emplace_back(width, height, 3);
+    detail::parallel_for(height, [&](std::int64_t row) {
+        const int y = static_cast<int>(row);
+        std::vector<Part> parts;
+        for (int x = 0; x < width; ++x) {
+            parts_under<P>(x, y, width, height, fine.width(), fine.height(), parts);
+            for (int face = 0; face < P::face_count; ++face)
+                coarse.faces[face].set_rgb(x, y, mean_of(parts, fine.faces[face]));
+        }
+    });
     return coarse;
 }
 
