@@ -15,7 +15,8 @@ inline EnvironmentMap panorama(int width) {
 }
 
 inline std::int64_t texel_count(const EnvironmentMap& map) {
-    return map.levels[0].faces[0].texel_count() * static_cast<std::int64_t>(map.levels[0].faces.size());
+    return map.levels[0].faces[0].texel_count() *
+           static_cast<std::int64_t>(map.levels[0].faces.size());
 }
 
 /// Fails the benchmark where the flux of `result` is not that of `source`, times `factor`.

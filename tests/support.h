@@ -1,4 +1,5 @@
-// What tests of files share: a folder that goes away, and the panoramas that lie beside the repository.
+// What tests of files share: a folder that goes away, and the panoramas that lie beside the
+// repository.
 #pragma once
 
 #include <cstdlib>

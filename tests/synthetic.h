@@ -79,10 +79,14 @@ inline Vec3d smooth_light(const Vec3d& d) {
 /// Edge of a face, or width of an equirect, with about `texels_around` texels along a great circle.
 inline int size_for(Projection projection, int texels_around) {
     switch (projection) {
-        case Projection::equirect: return texels_around;
-        case Projection::cube: return texels_around / 4;
-        case Projection::dual_paraboloid: return texels_around / 2;
-        default: return texels_around / 2;
+        case Projection::equirect:
+            return texels_around;
+        case Projection::cube:
+            return texels_around / 4;
+        case Projection::dual_paraboloid:
+            return texels_around / 2;
+        default:
+            return texels_around / 2;
     }
 }
 

@@ -1,8 +1,8 @@
 // How a map's own coordinate frame lies in the world.
 //
-// Our world is right-handed: +X right, +Y up, -Z forward. Programs differ in up axis, handedness and
-// where a panorama's centre looks; each of these is one orthonormal frame, so one type says them all.
-// Drawings: docs/conventions.md.
+// Our world is right-handed: +X right, +Y up, -Z forward. Programs differ in up axis, handedness
+// and where a panorama's centre looks; each of these is one orthonormal frame, so one type says
+// them all. Drawings: docs/conventions.md.
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ namespace mirrorball {
 enum class Projection;
 
 /// The map's own x, y and z axes as world directions: orthonormal, of either handedness.
-/// Every projection is defined in the map's frame (projection.h); the identity puts it in the world.
+/// Every projection is defined in the map's frame (projection.h); the identity puts it in the
+/// world.
 struct Axes {
     Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 
@@ -31,8 +32,8 @@ struct Axes {
     bool operator==(const Axes&) const = default;
 };
 
-/// The frame that a map of this projection has unless its file or user says otherwise: the identity,
-/// except for cubes, whose own space is left-handed (docs/conventions.md): +x +y -z.
+/// The frame that a map of this projection has unless its file or user says otherwise: the
+/// identity, except for cubes, whose own space is left-handed (docs/conventions.md): +x +y -z.
 [[nodiscard]] Axes default_axes(Projection projection);
 
 /// A map seen by another program: "three.js", "blender", "unity", "openexr", ... together with what

@@ -15,17 +15,18 @@ namespace mirrorball {
 /// One mip level: an image per face, all of one size, three channels each.
 struct Level {
     std::vector<Image> faces;
-    /// What the source was filtered with; none for the source itself and its plain box-filtered mips.
+    /// What the source was filtered with; none for the source itself and its plain box-filtered
+    /// mips.
     std::optional<Lobe> lobe;
 
     [[nodiscard]] int width() const { return faces.front().width(); }
     [[nodiscard]] int height() const { return faces.front().height(); }
 };
 
-/// Radiance (W m^-2 sr^-1, scene-linear RGB, Rec. 709 primaries unless the owner knows better) or, at
-/// a level filtered with the diffuse lobe, irradiance (W m^-2, not divided by pi).
-/// Level 0 is the finest. Every level has face_count(projection) faces with height >= 1 and
-/// width == aspect(projection) * height.
+/// Radiance (W m^-2 sr^-1, scene-linear RGB, Rec. 709 primaries unless the owner knows better) or,
+/// at a level filtered with the diffuse lobe, irradiance (W m^-2, not divided by pi). Level 0 is
+/// the finest. Every level has face_count(projection) faces with height >= 1 and width ==
+/// aspect(projection) * height.
 struct EnvironmentMap {
     Projection projection = Projection::equirect;
     Axes axes;
@@ -36,9 +37,9 @@ struct EnvironmentMap {
     [[nodiscard]] int level_count() const { return static_cast<int>(levels.size()); }
 };
 
-/// One level, all zero, in the projection's default axes. `size` is the edge in texels of a face, and
-/// the width of an equirect (which is twice its height).
-/// \throws Error(Errc::usage) if size < 1, or odd for an equirect
+/// One level, all zero, in the projection's default axes. `size` is the edge in texels of a face,
+/// and the width of an equirect (which is twice its height). \throws Error(Errc::usage) if size <
+/// 1, or odd for an equirect
 [[nodiscard]] EnvironmentMap make_environment_map(Projection projection, int size);
 
 /// Bytes that such a map holds, to check against a limit before making it.
@@ -57,7 +58,8 @@ struct LevelStatistics {
 [[nodiscard]] LevelStatistics statistics(const EnvironmentMap& map, int level = 0);
 
 /// How visible the edges of the picture are on the sphere: the mean step between texels that touch
-/// across a seam over the mean step between the texels just inside. 1 where there is no seam to see.
+/// across a seam over the mean step between the texels just inside. 1 where there is no seam to
+/// see.
 [[nodiscard]] double seam_ratio(const EnvironmentMap& map, int level = 0);
 
 }  // namespace mirrorball

@@ -19,7 +19,9 @@ class Image {
 
     /// All zero. \pre width, height >= 1; 1 <= channels <= 4
     Image(int width, int height, int channels)
-        : width_(width), height_(height), channels_(channels),
+        : width_(width),
+          height_(height),
+          channels_(channels),
           values_(static_cast<std::size_t>(width) * height * channels + kPadding) {
         assert(width >= 1 && height >= 1 && channels >= 1 && channels <= 4);
     }

@@ -90,8 +90,8 @@ struct WriteOptions {
 /// Texels that the stored format could not hold and that were clamped to its range.
 struct WriteReport {
     std::int64_t clipped_texel_count = 0;
-    /// Integral of what was cut off over the sphere; maps only. Of several levels, each of which is a
-    /// whole sphere, that of the level that loses most.
+    /// Integral of what was cut off over the sphere; maps only. Of several levels, each of which is
+    /// a whole sphere, that of the level that loses most.
     Vec3d lost_flux{0, 0, 0};
     std::uint64_t byte_count = 0;
 };

@@ -15,7 +15,8 @@ namespace mirrorball {
 ///     diffuse            t+                                      irradiance: integrates to pi
 ///     phong:N            (N+1)/(2 pi) t+^N                       Lewis 1993; the survey's Eq. 18
 ///     blinn-phong:N      c cos(theta/2)^N t+                     half-vector form with v = n = r
-///     ggx:R              c D(theta/2) t+, alpha = R^2            Walter 2007; v = n = r (Karis 2013)
+///     ggx:R              c D(theta/2) t+, alpha = R^2            Walter 2007; v = n = r (Karis
+///     2013)
 ///
 ///     D(h) = alpha^2 / (pi ((alpha^2 - 1) cos^2 h + 1)^2),  c such that the lobe integrates to 1
 struct Lobe {

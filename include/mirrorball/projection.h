@@ -1,12 +1,14 @@
 // Projections: every way in which a sphere of directions is laid out on flat images.
 //
-// A projection maps a direction d in the map's frame (axes.h) to a point on one of its faces and back.
-// Each is a type with the same static members, all pure and inline, so that loops over texels are
-// compiled once per projection and never branch on it; `visit` picks the type for a run-time value.
+// A projection maps a direction d in the map's frame (axes.h) to a point on one of its faces and
+// back. Each is a type with the same static members, all pure and inline, so that loops over texels
+// are compiled once per projection and never branch on it; `visit` picks the type for a run-time
+// value.
 //
 //     name, face_count, aspect     what it is called; images; width / height of one
-//     fills_square                 is every point of a face used? (else: those in the inscribed disc)
-//     three_at_corners             do three faces meet at a face's corners, so that no texel lies
+//     fills_square                 is every point of a face used? (else: those in the inscribed
+//     disc) three_at_corners             do three faces meet at a face's corners, so that no texel
+//     lies
 //                                  diagonally beyond them?
 //     project(d)                   direction (any length but 0) -> face point
 //     direction(p)                 face point -> unit direction; defined on the whole square, also
@@ -14,7 +16,8 @@
 //     tangents(p, d)               d direction / ds and / dt at p, where d = direction(p); analytic
 //     density(p)                   |ds x dt|: steradians per unit area of the face
 //     covers(p)                    is this point in the used part of the face?
-//     wrap(p)                      a point up to half a face outside the used part -> the same place
+//     wrap(p)                      a point up to half a face outside the used part -> the same
+//     place
 //                                  of the sphere, reached by walking straight across the edge
 //     solid_angle(face, rect)      exact steradians of a rectangle's used part
 //     seam_count, pole_count       edges along which neighbours on the sphere are apart on the
@@ -73,8 +76,8 @@ decltype(auto) visit(Projection projection, F&& f);
 /// All faces of a projection have the same table. Zero marks an unused texel.
 [[nodiscard]] std::vector<double> solid_angle_table(Projection projection, int width, int height);
 
-/// The facts by which the survey's section 3 compares parameterisations, measured over the texels of
-/// a map whose faces have `size` rows.
+/// The facts by which the survey's section 3 compares parameterisations, measured over the texels
+/// of a map whose faces have `size` rows.
 struct ProjectionFacts {
     double used_share;         ///< of the pixels, by area
     double solid_angle_ratio;  ///< largest : smallest solid angle of a wholly used texel

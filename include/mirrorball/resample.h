@@ -24,8 +24,8 @@ struct ResampleOptions {
 /// with L interpolated between source texels across face edges and poles. The integral is in closed
 /// form over the box of source texels that lies under the texel, or over the cells of one that is
 /// large or lies askew, so nothing of the source is passed over however much smaller the result is.
-/// A conversion that changes nothing (same projection, size and frame) returns the same bits. Level 0
-/// of the source is read. Costs about 100 ns per texel of the result and thread, more where the
+/// A conversion that changes nothing (same projection, size and frame) returns the same bits. Level
+/// 0 of the source is read. Costs about 100 ns per texel of the result and thread, more where the
 /// result is much smaller. How exact it is: docs/theory/resampling.md.
 ///
 /// `size` as in make_environment_map(); the result is in `axes`. Same bits for any thread count.
@@ -33,8 +33,8 @@ struct ResampleOptions {
                                       const Axes& axes, const ResampleOptions& options = {});
 
 /// Appends levels of half the size, rounded down, to 1 x 1 (equirect: 2 x 1), or `level_count` in
-/// all. A texel is the mean of those under it, by exact solid angle: every level has level 0's flux,
-/// to rounding. \pre map has one level
+/// all. A texel is the mean of those under it, by exact solid angle: every level has level 0's
+/// flux, to rounding. \pre map has one level
 void append_mip_levels(EnvironmentMap& map, int level_count = 0);
 
 /// The number of levels down to the smallest.

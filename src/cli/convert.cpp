@@ -95,7 +95,8 @@ int run(const Options& options, const Shared& shared) {
     check_size(target.projection, target.size);
     check_memory(bytes_held(source) +
                      bytes_needed(target.projection, target.size, options.levels.has_value()),
-                 fmt::format("projection {} at size {}", name(target.projection), target.size), shared);
+                 fmt::format("projection {} at size {}", name(target.projection), target.size),
+                 shared);
     const int level_count = levels_to_convert(options, source, shared);
     source.axes = moved(source.axes, options);
 

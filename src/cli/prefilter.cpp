@@ -63,9 +63,10 @@ std::vector<EnvironmentMap> reference_levels(const EnvironmentMap& source,
 int run(const Options& options, const Shared& shared) {
     check_target(options.output, options.write);
     const auto targets = targets_of(options);
-    check_memory(bytes_needed(options.projection, targets.front().size, targets.size() > 1),
-                 fmt::format("projection {} at size {}", name(options.projection), targets.front().size),
-                 shared);
+    check_memory(
+        bytes_needed(options.projection, targets.front().size, targets.size() > 1),
+        fmt::format("projection {} at size {}", name(options.projection), targets.front().size),
+        shared);
     const LoadedMap loaded = load(options.input, shared);
     EnvironmentMap result;
     {

@@ -15,7 +15,8 @@ bool same_texels(const EnvironmentMap& a, const EnvironmentMap& b, int level) {
 }
 
 // \pre both are alike in shape
-Difference compare_texels(const EnvironmentMap& a, int level_a, const EnvironmentMap& b, int level_b) {
+Difference compare_texels(const EnvironmentMap& a, int level_a, const EnvironmentMap& b,
+                          int level_b) {
     const auto for_each = [&](auto&& f) {
         detail::for_each_texel(b, level_b, [&](int face, int x, int y, double solid_angle) {
             f(face, x, y, Vec3d(a.levels[level_a].faces[face].rgb(x, y)),
@@ -35,7 +36,8 @@ Difference compare_texels(const EnvironmentMap& a, int level_a, const Environmen
 
     Difference d{};
     d.relative_rmse = error > 0 ? std::sqrt(error / power) : 0;
-    for (int c = 0; c < 3; ++c) d.flux_ratio[c] = flux_a[c] == flux_b[c] ? 1 : flux_a[c] / flux_b[c];
+    for (int c = 0; c < 3; ++c)
+        d.flux_ratio[c] = flux_a[c] == flux_b[c] ? 1 : flux_a[c] / flux_b[c];
     const double floor = 1e-2 * std::sqrt(power / (3 * total));
     for_each([&](int face, int x, int y, const Vec3d& va, const Vec3d& vb, double) {
         for (int c = 0; c < 3; ++c) {

@@ -33,8 +33,8 @@ class SeamWalk {
         for (int face = 0; face < P::face_count; ++face)
             for (int y = 0; y < h_; ++y)
                 for (int x = 0; x < w_; ++x)
-                    for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0),
-                                                 std::pair(0, 1), std::pair(0, -1)})
+                    for (const auto& [dx, dy] :
+                         {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
                         add(sum, {face, x, y}, dx, dy);
         return sum;
     }

@@ -8,7 +8,8 @@
 
 namespace mirrorball::detail {
 
-/// Exact steradians of one texel's used part; 0 for an unused texel. The value in solid_angle_table().
+/// Exact steradians of one texel's used part; 0 for an unused texel. The value in
+/// solid_angle_table().
 inline double texel_solid_angle(Projection projection, int width, int height, int x, int y) {
     // the table is a mirrored quarter, to the last bit
     const int column = std::min(x, width - 1 - x), row = std::min(y, height - 1 - y);

@@ -10,8 +10,12 @@
 namespace mirrorball {
 namespace {
 
-Lobe ggx(double roughness) { return {Lobe::Kind::ggx, std::clamp(roughness, 0.0, 1.0)}; }
-Lobe phong(double exponent) { return {Lobe::Kind::phong, exponent}; }
+Lobe ggx(double roughness) {
+    return {Lobe::Kind::ggx, std::clamp(roughness, 0.0, 1.0)};
+}
+Lobe phong(double exponent) {
+    return {Lobe::Kind::phong, exponent};
+}
 
 // level / (level_count - 1), 0 for a single level
 double share(int level, int level_count) {
@@ -26,8 +30,7 @@ struct Mapping {
 constexpr Mapping kMappings[] = {
     {"gltf", [](int level, int count) { return ggx(share(level, count)); }},
     // level = L_max r (2 - r)
-    {"filament",
-     [](int level, int count) { return ggx(1 - std::sqrt(1 - share(level, count))); }},
+    {"filament", [](int level, int count) { return ggx(1 - std::sqrt(1 - share(level, count))); }},
     {"unreal",
      [](int level, int count) { return ggx(std::exp2((1 - (count - 1 - level)) / 1.2)); }},
     // level = 6 r (1.7 - 0.7 r), whatever the number of levels

@@ -12,8 +12,8 @@ namespace mirrorball::detail {
 namespace {
 
 // A cell stands for its children while its radius is at most this share of the scale on which the
-// lobe varies over it. Light is taken to come from where it comes on average, so the error goes with
-// the square of this; the time goes with its inverse square.
+// lobe varies over it. Light is taken to come from where it comes on average, so the error goes
+// with the square of this; the time goes with its inverse square.
 constexpr double kOpening = 0.13;
 
 // A lobe has a crease at its horizon; cells that lie across it are opened further.
@@ -28,10 +28,14 @@ constexpr int kLargestFace = 1024;
 double scale_of(const Lobe& lobe) {
     const double exponent = std::max(lobe.parameter, 1.0);
     switch (lobe.kind) {
-        case Lobe::Kind::phong: return std::min(0.6, 1.5 / std::sqrt(exponent));
-        case Lobe::Kind::blinn_phong: return std::min(0.6, 3.0 / std::sqrt(exponent));
-        case Lobe::Kind::ggx: return std::min(0.5, 1.2 * lobe.parameter * lobe.parameter);
-        default: return 0.6;
+        case Lobe::Kind::phong:
+            return std::min(0.6, 1.5 / std::sqrt(exponent));
+        case Lobe::Kind::blinn_phong:
+            return std::min(0.6, 3.0 / std::sqrt(exponent));
+        case Lobe::Kind::ggx:
+            return std::min(0.5, 1.2 * lobe.parameter * lobe.parameter);
+        default:
+            return 0.6;
     }
 }
 
@@ -75,12 +79,17 @@ Place from_morton(std::size_t index) {
     return place;
 }
 
-double brightness(const Vec3f& flux) { return std::abs(flux.x) + std::abs(flux.y) + std::abs(flux.z); }
+double brightness(const Vec3f& flux) {
+    return std::abs(flux.x) + std::abs(flux.y) + std::abs(flux.z);
+}
 
 }  // namespace
 
 TreeLobe::TreeLobe(const Lobe& lobe)
-    : kernel(lobe), integral(lobe.integral()), scale(scale_of(lobe)), reach(reach_of(kernel)),
+    : kernel(lobe),
+      integral(lobe.integral()),
+      scale(scale_of(lobe)),
+      reach(reach_of(kernel)),
       power_tail(lobe.kind == Lobe::Kind::ggx) {
     if (lobe.kind != Lobe::Kind::phong && lobe.kind != Lobe::Kind::blinn_phong) return;
     table_scale = kTableSteps / (reach * reach);
@@ -101,17 +110,18 @@ LightTree::LightTree(const EnvironmentMap& source) : levels_(finest_level(source
 // Until finish(), a cell's direction is the sum of its texels' directions, weighed by their light.
 void LightTree::sort_in(const EnvironmentMap& source) {
     const int level = static_cast<int>(levels_.size()) - 1, size = 1 << level;
-    for_each_direction(source, 0, [&](const Vec3d& direction, const Vec3f& radiance, double solid_angle) {
-        const FacePoint<double> at = Cube::project(direction);
-        const std::size_t place = morton(std::min(static_cast<int>(at.s * size), size - 1),
-                                         std::min(static_cast<int>(at.t * size), size - 1));
-        Cell& cell = levels_[level][(static_cast<std::size_t>(at.face) << 2 * level) + place];
-        const Vec3f flux = radiance * static_cast<float>(solid_angle);
-        // a trace of solid angle gives dark cells a direction, too
-        cell.direction += Vec3f(direction * (brightness(flux) + 1e-6 * solid_angle));
-        cell.flux += flux;
-        cell.solid_angle += static_cast<float>(solid_angle);
-    });
+    for_each_direction(
+        source, 0, [&](const Vec3d& direction, const Vec3f& radiance, double solid_angle) {
+            const FacePoint<double> at = Cube::project(direction);
+            const std::size_t place = morton(std::min(static_cast<int>(at.s * size), size - 1),
+                                             std::min(static_cast<int>(at.t * size), size - 1));
+            Cell& cell = levels_[level][(static_cast<std::size_t>(at.face) << 2 * level) + place];
+            const Vec3f flux = radiance * static_cast<float>(solid_angle);
+            // a trace of solid angle gives dark cells a direction, too
+            cell.direction += Vec3f(direction * (brightness(flux) + 1e-6 * solid_angle));
+            cell.flux += flux;
+            cell.solid_angle += static_cast<float>(solid_angle);
+        });
 }
 
 void LightTree::gather_children(int level) {
@@ -135,8 +145,8 @@ void LightTree::finish(int level) {
             const auto [x, y] = from_morton(i % face_cells);
             const Vec3d sum(cell.direction), centre = sum / sum.length();
             double radius = 0;
-            for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1),
-                                         std::pair(1, 1)}) {
+            for (const auto& [dx, dy] :
+                 {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
                 const double edge = 1.0 / static_cast<double>(size);
                 const FacePoint<double> corner{static_cast<int>(i / face_cells), (x + dx) * edge,
                                                (y + dy) * edge};

@@ -1,6 +1,6 @@
 // The light of an environment as a tree over the six faces of a cube: each cell holds what arrives
-// from its part of the sphere, and is the parent of the four under it. A lobe far from a cell, or wide
-// against it, need not look at its children.
+// from its part of the sphere, and is the parent of the four under it. A lobe far from a cell, or
+// wide against it, need not look at its children.
 #pragma once
 
 #include <vector>
@@ -26,8 +26,8 @@ struct TreeLobe {
 
     LobeKernel kernel;
     double integral;
-    double scale;     ///< the angle over which the lobe changes by about a factor of two at its axis
-    double reach;     ///< the chord beyond which it is negligible
+    double scale;  ///< the angle over which the lobe changes by about a factor of two at its axis
+    double reach;  ///< the chord beyond which it is negligible
     bool power_tail;  ///< does it fall off as a power of the angle, ever more slowly?
 
   private:
@@ -43,8 +43,8 @@ class LightTree {
     /// From level 0 of any map. The finest cells are about as fine as the source's texels.
     explicit LightTree(const EnvironmentMap& source);
 
-    /// The sum over the tree of weight times radiance, over the sum of the weights, for a lobe about
-    /// `axis` (in the world, unit length).
+    /// The sum over the tree of weight times radiance, over the sum of the weights, for a lobe
+    /// about `axis` (in the world, unit length).
     [[nodiscard]] Vec3d filtered(const TreeLobe& lobe, const Vec3d& axis) const;
 
   private:

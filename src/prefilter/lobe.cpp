@@ -20,14 +20,17 @@ LobeKernel::LobeKernel(const Lobe& lobe) : kind_(lobe.kind) {
     scale_ = lobe.integral() / unscaled_cap(0);
 }
 
-double LobeKernel::cap(double t) const { return scale_ * unscaled_cap(t); }
+double LobeKernel::cap(double t) const {
+    return scale_ * unscaled_cap(t);
+}
 
 // With u = cos^2(theta/2) = (1 + t) / 2, dw = 2 pi dt = 4 pi du; integrals from u to 1.
 double LobeKernel::unscaled_cap(double t) const {
     t = std::fmin(std::fmax(t, 0.0), 1.0);
     const double u = (1 + t) / 2;
     switch (kind_) {
-        case Lobe::Kind::diffuse: return kPi * (1 - t * t);
+        case Lobe::Kind::diffuse:
+            return kPi * (1 - t * t);
         case Lobe::Kind::phong: {
             const double n = exponent_ + 1;
             return 2 * kPi / n * (t > 0 ? -std::expm1(n * std::log(t)) : 1);
@@ -37,10 +40,11 @@ double LobeKernel::unscaled_cap(double t) const {
             const double power = std::pow(u, n);
             return 4 * kPi * (2 * (1 - power * u) / (n + 1) - (1 - power) / n);
         }
-        default: break;
+        default:
+            break;
     }
-    // (2u - 1) / (1 - b u)^2, with w = 1 - b u; near b = 0 the closed form cancels and the integrand
-    // is next to a polynomial, for which Simpson's rule on 8 panels is exact to rounding
+    // (2u - 1) / (1 - b u)^2, with w = 1 - b u; near b = 0 the closed form cancels and the
+    // integrand is next to a polynomial, for which Simpson's rule on 8 panels is exact to rounding
     const double b = 1 - alpha2_;
     if (b < 0.01) {
         const auto f = [b](double v) { return (2 * v - 1) / ((1 - b * v) * (1 - b * v)); };
@@ -81,10 +85,10 @@ double parse_parameter(std::string_view text, const KindName& kind, std::string_
     const double value = std::strtod(copy.c_str(), &end);
     const bool whole = !copy.empty() && end == copy.c_str() + copy.size();
     if (!whole || !(value >= 0 && value <= kind.largest) || std::isinf(value))
-        throw Error(Errc::usage,
-                    fmt::format("lobe \"{}\": the {} must be a number from 0 {}", text,
-                                kind.parameter,
-                                std::isinf(kind.largest) ? "up" : fmt::format("to {}", kind.largest)));
+        throw Error(
+            Errc::usage,
+            fmt::format("lobe \"{}\": the {} must be a number from 0 {}", text, kind.parameter,
+                        std::isinf(kind.largest) ? "up" : fmt::format("to {}", kind.largest)));
     return value;
 }
 
@@ -94,7 +98,9 @@ bool Lobe::is_delta() const {
     return kind == Kind::mirror || (kind == Kind::ggx && parameter == 0);
 }
 
-double Lobe::integral() const { return kind == Kind::diffuse ? kPi : 1; }
+double Lobe::integral() const {
+    return kind == Kind::diffuse ? kPi : 1;
+}
 
 double Lobe::value(double cos_theta) const {
     if (is_delta()) return cos_theta >= 1 ? std::numeric_limits<double>::infinity() : 0;
@@ -130,7 +136,8 @@ Lobe parse_lobe(std::string_view text) {
         if (kind.name != kind_name) continue;
         if (kind.parameter.empty() && colon == std::string_view::npos) return {kind.kind, 0};
         if (kind.parameter.empty())
-            throw Error(Errc::usage, fmt::format("lobe \"{}\": {} has no parameter", text, kind.name));
+            throw Error(Errc::usage,
+                        fmt::format("lobe \"{}\": {} has no parameter", text, kind.name));
         if (colon == std::string_view::npos)
             throw Error(Errc::usage, fmt::format("lobe \"{}\": expected {}:{}", text, kind.name,
                                                  kind.parameter));

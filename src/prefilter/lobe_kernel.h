@@ -16,9 +16,12 @@ class LobeKernel {
     double operator()(double t) const {
         if (t <= 0) return 0;
         switch (kind_) {
-            case Lobe::Kind::diffuse: return t;
-            case Lobe::Kind::phong: return scale_ * std::pow(t, exponent_);
-            case Lobe::Kind::blinn_phong: return scale_ * std::pow((1 + t) / 2, exponent_) * t;
+            case Lobe::Kind::diffuse:
+                return t;
+            case Lobe::Kind::phong:
+                return scale_ * std::pow(t, exponent_);
+            case Lobe::Kind::blinn_phong:
+                return scale_ * std::pow((1 + t) / 2, exponent_) * t;
             default: {
                 // (alpha^2 - 1) cos^2(theta/2) + 1, without cancelling near the axis
                 const double denominator = alpha2_ + (1 - alpha2_) * (1 - t) / 2;

@@ -27,8 +27,7 @@ std::vector<EnvironmentMap> prefilter(const EnvironmentMap& source,
         if (!tree) tree.emplace(source);
         const detail::TreeLobe lobe(target.lobe);
         results.push_back(detail::fill_target(
-            target, [&](const Vec3d& axis) { return tree->filtered(lobe, axis); },
-            part));
+            target, [&](const Vec3d& axis) { return tree->filtered(lobe, axis); }, part));
     }
     return results;
 }

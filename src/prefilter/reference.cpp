@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-
 #include "image/for_each_texel.h"
 #include "prefilter/lobe_kernel.h"
 #include "prefilter/target.h"
@@ -48,7 +47,8 @@ Vec3d filtered(const std::vector<SourceTexel>& texels, const detail::LobeKernel&
         sum += texel.radiance * weight;
         weights += weight;
     }
-    if (weights < std::numeric_limits<double>::min()) return nearest(texels, axis).radiance * integral;
+    if (weights < std::numeric_limits<double>::min())
+        return nearest(texels, axis).radiance * integral;
     return sum * (integral / weights);
 }
 
@@ -61,9 +61,7 @@ EnvironmentMap prefilter_reference(const EnvironmentMap& source, const Prefilter
     const detail::LobeKernel kernel(target.lobe);
     return detail::fill_target(
         target,
-        [&](const Vec3d& axis) {
-            return filtered(texels, kernel, target.lobe.integral(), axis);
-        },
+        [&](const Vec3d& axis) { return filtered(texels, kernel, target.lobe.integral(), axis); },
         progress);
 }
 

@@ -8,8 +8,8 @@ namespace mirrorball::detail {
 
 EnvironmentMap mirror_target(const EnvironmentMap& source, const PrefilterTarget& target,
                              const Progress& progress) {
-    EnvironmentMap map = resample(source, target.projection, target.size, target.axes,
-                                  {.progress = progress});
+    EnvironmentMap map =
+        resample(source, target.projection, target.size, target.axes, {.progress = progress});
     map.levels[0].lobe = target.lobe;
     return map;
 }

@@ -12,10 +12,10 @@
 namespace mirrorball {
 namespace {
 
-// Every frame of a preset lies along the world's axes, so its text form says it all. A program whose
-// own world is not ours (Blender and RenderMan: z up; Unity, RenderMan, pbrt: left-handed) is entered
-// after its world has been turned into ours: Blender (x, z, -y), RenderMan and pbrt (x, z, y), Unity
-// (x, y, -z). Sources of the forward maps: docs/conventions.md.
+// Every frame of a preset lies along the world's axes, so its text form says it all. A program
+// whose own world is not ours (Blender and RenderMan: z up; Unity, RenderMan, pbrt: left-handed) is
+// entered after its world has been turned into ours: Blender (x, z, -y), RenderMan and pbrt (x, z,
+// y), Unity (x, y, -z). Sources of the forward maps: docs/conventions.md.
 struct Preset {
     std::string_view program;
     Projection projection;

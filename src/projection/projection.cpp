@@ -16,8 +16,8 @@ FaceRect texel_rect(int x, int y, int width, int height) {
             static_cast<double>(x + 1) / width, static_cast<double>(y + 1) / height};
 }
 
-// Every projection looks the same mirrored left to right and top to bottom, so a quarter will do; it
-// also makes the table exactly symmetric.
+// Every projection looks the same mirrored left to right and top to bottom, so a quarter will do;
+// it also makes the table exactly symmetric.
 template <class P>
 std::vector<double> make_solid_angle_table(int width, int height) {
     std::vector<double> table(static_cast<std::size_t>(width) * height);
@@ -73,12 +73,8 @@ ProjectionFacts measure_projection(int size) {
     }
     const double pixel_count = static_cast<double>(P::face_count) * width * size;
     const double steps_per_degree = longest_step / (kPi / 180);
-    return {used_area / (static_cast<double>(width) * size),
-            largest / smallest,
-            worst_stretch,
-            pixel_count * steps_per_degree * steps_per_degree,
-            P::seam_count,
-            P::pole_count};
+    return {used_area / (static_cast<double>(width) * size),   largest / smallest, worst_stretch,
+            pixel_count * steps_per_degree * steps_per_degree, P::seam_count,      P::pole_count};
 }
 
 }  // namespace

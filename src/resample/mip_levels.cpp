@@ -8,8 +8,8 @@
 namespace mirrorball {
 namespace {
 
-// The texels of the finer level that lie under texel i of the coarser, along one axis: [first, last].
-// Where sizes are odd the outer ones lie under it with a part only.
+// The texels of the finer level that lie under texel i of the coarser, along one axis: [first,
+// last]. Where sizes are odd the outer ones lie under it with a part only.
 struct Under {
     int first, last;
 };
@@ -19,8 +19,8 @@ Under texels_under(int i, int coarse, int fine) {
     return {static_cast<int>(from / coarse), static_cast<int>((to - 1) / coarse)};
 }
 
-// What of the finer level lies under a texel of the coarser: texels, and the exact solid angle of the
-// part of each that does. It is the same for all faces.
+// What of the finer level lies under a texel of the coarser: texels, and the exact solid angle of
+// the part of each that does. It is the same for all faces.
 struct Part {
     int x, y;
     double solid_angle;
@@ -37,7 +37,8 @@ void parts_under(int x, int y, int width, int height, int fine_width, int fine_h
             const FaceRect part{
                 std::max(static_cast<double>(x) / width, static_cast<double>(i) / fine_width),
                 std::max(static_cast<double>(y) / height, static_cast<double>(j) / fine_height),
-                std::min(static_cast<double>(x + 1) / width, static_cast<double>(i + 1) / fine_width),
+                std::min(static_cast<double>(x + 1) / width,
+                         static_cast<double>(i + 1) / fine_width),
                 std::min(static_cast<double>(y + 1) / height,
                          static_cast<double>(j + 1) / fine_height)};
             parts.push_back({i, j, P::solid_angle(0, part)});
@@ -78,9 +79,8 @@ void append_mip_levels(EnvironmentMap& map, int level_count) {
     const int most = full_level_count(map.projection, map.width());
     const int count = level_count > 0 ? std::min(level_count, most) : most;
     while (map.level_count() < count) {
-        map.levels.push_back(visit(map.projection, [&](auto p) {
-            return next_level<decltype(p)>(map.levels.back());
-        }));
+        map.levels.push_back(visit(
+            map.projection, [&](auto p) { return next_level<decltype(p)>(map.levels.back()); }));
     }
 }
 

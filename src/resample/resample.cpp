@@ -1,10 +1,10 @@
 // Resampling in two halves that know nothing of each other's projection: the target knows where its
 // texels lie on the sphere, the source what light comes from there. They meet in directions.
 //
-// For each texel of the target, its edges are vectors on the sphere; the source measures them in its
-// own texels. In the usual case that box of source texels is averaged as it stands. A box that lies
-// askew to the source's grid, or is large, is cut into a grid of cells that are boxes well enough.
-// Where the target is the finer one, an edge is a fraction of a source texel and a smooth
+// For each texel of the target, its edges are vectors on the sphere; the source measures them in
+// its own texels. In the usual case that box of source texels is averaged as it stands. A box that
+// lies askew to the source's grid, or is large, is cut into a grid of cells that are boxes well
+// enough. Where the target is the finer one, an edge is a fraction of a source texel and a smooth
 // interpolation takes the place of the average.
 //
 // How exact that is: docs/theory/resampling.md.
@@ -24,13 +24,14 @@ namespace {
 
 using detail::Rgbx;
 
-// An edge longer than this many source texels is cut; so is one that crosses this many the other way.
+// An edge longer than this many source texels is cut; so is one that crosses this many the other
+// way.
 constexpr double kLongestEdge = 4;
 constexpr double kMostSkew = 0.5;
 // Below this many source texels per edge of the target the interpolation is seen, not the average.
 constexpr double kMagnified = 0.5;
-// Near a pole of the source its texels become slivers, and cells cut for their short side everywhere
-// would be many more than there are texels: this many at most.
+// Near a pole of the source its texels become slivers, and cells cut for their short side
+// everywhere would be many more than there are texels: this many at most.
 constexpr double kMostCellsPerSourceTexel = 4;
 // A texel on the rim is cut so that the rim's course through it is seen.
 constexpr int kRimCells = 16;
@@ -80,7 +81,8 @@ struct Footprints {
     }
 };
 
-// The target's half ---------------------------------------------------------------------------------
+// The target's half
+// ---------------------------------------------------------------------------------
 
 class Target {
   public:
@@ -92,7 +94,8 @@ class Target {
     virtual bool whole(int face, int x, int y) const = 0;
     // Appends the used ones among the cells of a texel, from number `first` on, until the block is
     // full; the number to go on from.
-    virtual int cells(int face, int x, int y, Grid grid, int first, int owner, Patches& out) const = 0;
+    virtual int cells(int face, int x, int y, Grid grid, int first, int owner,
+                      Patches& out) const = 0;
     // For a sliver that the rim cut off between all cells' centres: the place across the rim.
     virtual void across_rim(int face, int x, int y, int owner, Patches& out) const = 0;
 };
@@ -102,7 +105,9 @@ class TargetOf final : public Target {
   public:
     // Columns of target_to_source: the target's axes as the source sees them.
     TargetOf(int width, int height, const Axes& target_to_source)
-        : width_(width), height_(height), to_source_(target_to_source) {}
+        : width_(width),
+          height_(height),
+          to_source_(target_to_source) {}
 
     void texels(int face, int x, int y, int count, Patches& __restrict out) const override {
         out.count = count;
@@ -126,7 +131,8 @@ class TargetOf final : public Target {
                P::covers(point(face, x, y, 0, 1)) && P::covers(point(face, x, y, 1, 1));
     }
 
-    int cells(int face, int x, int y, Grid grid, int first, int owner, Patches& out) const override {
+    int cells(int face, int x, int y, Grid grid, int first, int owner,
+              Patches& out) const override {
         int next = first;
         for (; next < grid.cell_count() && out.count < kBlock; ++next) {
             const int i = next % grid.along_s, j = next / grid.along_s;
@@ -160,7 +166,8 @@ class TargetOf final : public Target {
     Axes to_source_;
 };
 
-// The source's half ---------------------------------------------------------------------------------
+// The source's half
+// ---------------------------------------------------------------------------------
 
 class Source {
   public:
@@ -174,7 +181,8 @@ template <class P>
 class SourceOf final : public Source {
   public:
     SourceOf(const Level& level, Interpolation interpolation)
-        : sampler_(level), bicubic_(interpolation == Interpolation::bicubic) {}
+        : sampler_(level),
+          bicubic_(interpolation == Interpolation::bicubic) {}
 
     void footprints(const Patches& patches, Footprints& __restrict out) const override {
         const int count = patches.count;
@@ -194,9 +202,11 @@ class SourceOf final : public Source {
   private:
     Rgbx value(const Footprints& f, int i) const {
         const FacePoint<double> centre{f.face[i], f.s[i], f.t[i]};
-        if (bicubic_ && std::max(f.width[i], f.height[i]) <= kMagnified) return sampler_.bicubic(centre);
+        if (bicubic_ && std::max(f.width[i], f.height[i]) <= kMagnified)
+            return sampler_.bicubic(centre);
         constexpr double largest = detail::Sampler<P>::kLargestBox;
-        return sampler_.box_mean(centre, std::min(f.width[i], largest), std::min(f.height[i], largest));
+        return sampler_.box_mean(centre, std::min(f.width[i], largest),
+                                 std::min(f.height[i], largest));
     }
 
     // How far an edge reaches along either axis, in source texels; not negative.
@@ -210,12 +220,14 @@ class SourceOf final : public Source {
 
     [[gnu::always_inline]] static void measure(const Patches& patches, int i, double width,
                                                double height, Footprints& __restrict out) {
-        const Vec3d centre = patches.centre[i], edge_s = patches.edge_s[i], edge_t = patches.edge_t[i];
+        const Vec3d centre = patches.centre[i], edge_s = patches.edge_s[i],
+                    edge_t = patches.edge_t[i];
         const FacePoint<double> p = P::project(centre);
         const Tangents<double> tangents = P::tangents(p, centre);
         const Vec3d texel_s = tangents.ds / width, texel_t = tangents.dt / height;
         // edge = u texel_s + v texel_t, from its dot products with both
-        const double ss = texel_s.dot(texel_s), st = texel_s.dot(texel_t), tt = texel_t.dot(texel_t);
+        const double ss = texel_s.dot(texel_s), st = texel_s.dot(texel_t),
+                     tt = texel_t.dot(texel_t);
         const double determinant = std::max(ss * tt - st * st, 1e-12 * tt * tt);
         const double inverse = 1 / determinant;
         const auto in_texels = [&](const Vec3d& edge) MIRRORBALL_INLINE_BODY {
@@ -236,14 +248,17 @@ class SourceOf final : public Source {
     bool bicubic_;
 };
 
-// Together ------------------------------------------------------------------------------------------
+// Together
+// ------------------------------------------------------------------------------------------
 
 // One row of the target's texels at a time, a block after the other. Texels that are boxes to the
 // source are done at once; the cells of the others queue up, so that they, too, go by the block.
 class RowResampler {
   public:
     RowResampler(const Target& target, const Source& source)
-        : target_(target), source_(source), all_whole_(target.all_whole()) {}
+        : target_(target),
+          source_(source),
+          all_whole_(target.all_whole()) {}
 
     void resample(int face, int y, Image& image, std::span<const double> solid_angles) {
         for (int x0 = 0; x0 < image.width(); x0 += kBlock) {

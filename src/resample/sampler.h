@@ -1,8 +1,8 @@
 // Reading a level of an environment map between its texels, across face edges and poles.
 //
-// A face's texels are met in the order in which they lie; a texel asked for beyond an edge is the one
-// that the projection's wrap() finds there. Nearly all reads are inside a face and take the texels as
-// they are, four floats at a time (Image pads its end for that).
+// A face's texels are met in the order in which they lie; a texel asked for beyond an edge is the
+// one that the projection's wrap() finds there. Nearly all reads are inside a face and take the
+// texels as they are, four floats at a time (Image pads its end for that).
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,9 @@ inline Rgbx larger(Rgbx a, Rgbx b) {
     return a > b ? a : b;
 #endif
 }
-inline Rgbx magnitude(Rgbx v) { return (Rgbx)((Mask)v & 0x7fffffff); }
+inline Rgbx magnitude(Rgbx v) {
+    return (Rgbx)((Mask)v & 0x7fffffff);
+}
 
 /// std::floor for values that fit an int; a library call where the processor's baseline has no such
 /// instruction, and this is the innermost loop.
@@ -49,8 +51,8 @@ inline Rgbx load_rgbx(const float* rgb) {
 
 /// Cubic Hermite interpolation between b (at x = 0) and c (x = 1), with the slope of the parabola
 /// through three neighbours, as far as monotone: never more than three times the smaller of the two
-/// differences beside it, and level at a peak (Fritsch and Carlson 1980). So the curve stays between
-/// b and c; a plain cubic would swing below zero beside a sun.
+/// differences beside it, and level at a peak (Fritsch and Carlson 1980). So the curve stays
+/// between b and c; a plain cubic would swing below zero beside a sun.
 inline Rgbx monotone_cubic(Rgbx a, Rgbx b, Rgbx c, Rgbx d, float x) {
     const auto slope = [&](Rgbx left, Rgbx right) {
         const Rgbx central = (left + right) * 0.5f;
@@ -61,7 +63,8 @@ inline Rgbx monotone_cubic(Rgbx a, Rgbx b, Rgbx c, Rgbx d, float x) {
     };
     const Rgbx step = c - b;
     const Rgbx at_b = slope(b - a, step), at_c = slope(step, d - c);
-    return b + x * (at_b + x * ((3.0f * step - 2.0f * at_b - at_c) + x * (at_b + at_c - 2.0f * step)));
+    return b +
+           x * (at_b + x * ((3.0f * step - 2.0f * at_b - at_c) + x * (at_b + at_c - 2.0f * step)));
 }
 
 template <class P>
@@ -69,7 +72,9 @@ class Sampler {
   public:
     /// \pre level outlives this
     explicit Sampler(const Level& level)
-        : level_(level), width_(level.width()), height_(level.height()) {}
+        : level_(level),
+          width_(level.width()),
+          height_(level.height()) {}
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
@@ -86,9 +91,9 @@ class Sampler {
         } else {
             for (int j = 0; j < 4; ++j) {
                 const int y = at.y - 1 + j;
-                rows[j] = monotone_cubic(fetch(p.face, at.x - 1, y), fetch(p.face, at.x, y),
-                                         fetch(p.face, at.x + 1, y), fetch(p.face, at.x + 2, y),
-                                         at.fx);
+                rows[j] =
+                    monotone_cubic(fetch(p.face, at.x - 1, y), fetch(p.face, at.x, y),
+                                   fetch(p.face, at.x + 1, y), fetch(p.face, at.x + 2, y), at.fx);
             }
         }
         return monotone_cubic(rows[0], rows[1], rows[2], rows[3], at.fy);
@@ -120,7 +125,8 @@ class Sampler {
     // Of the texels along one axis that a box at u (in texels, from the first one's centre) sees.
     struct Weights {
         int first, count;
-        float weight[(static_cast<int>(kLargestBox) + 3 + 3) / 4 * 4];  // by fours; zero beyond count
+        float
+            weight[(static_cast<int>(kLargestBox) + 3 + 3) / 4 * 4];  // by fours; zero beyond count
 
         Weights(double u, double h) {
             const double half = h / 2;
@@ -133,8 +139,8 @@ class Sampler {
         }
 
       private:
-        // A narrow box takes differences of nearly equal integrals, which need doubles; and one of no
-        // width would divide by it, where the tent is the limit, to rounding.
+        // A narrow box takes differences of nearly equal integrals, which need doubles; and one of
+        // no width would divide by it, where the tent is the limit, to rounding.
         static constexpr double kWide = 0.25;
 
         void weigh_narrow(double x, double half) {
@@ -165,12 +171,14 @@ class Sampler {
 
     // Inlined for counts known beforehand, too, so that the usual boxes have no loops to guess.
     // Weights beyond a count are zero.
-    [[gnu::always_inline]] Rgbx weighed(const float* texel, const Weights& columns, int column_count,
-                                        const Weights& rows, int row_count) const {
+    [[gnu::always_inline]] Rgbx weighed(const float* texel, const Weights& columns,
+                                        int column_count, const Weights& rows,
+                                        int row_count) const {
         Rgbx sum{};
         for (int j = 0; j < row_count; ++j, texel += 3 * static_cast<std::ptrdiff_t>(width_)) {
             Rgbx row{};
-            for (int i = 0; i < column_count; ++i) row += load_rgbx(texel + 3 * i) * columns.weight[i];
+            for (int i = 0; i < column_count; ++i)
+                row += load_rgbx(texel + 3 * i) * columns.weight[i];
             sum += row * rows.weight[j];
         }
         return sum;

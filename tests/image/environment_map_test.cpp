@@ -40,7 +40,9 @@ TEST(EnvironmentMap, StatisticsCountWhatIsOddAndIgnoreTheUnused) {
 }
 
 TEST(EnvironmentMap, SeamRatioSeesASeam) {
-    const auto rough = [](const Vec3d& d) { return Vec3d(2 + std::sin(5 * d.x + 3 * d.y + 2 * d.z)); };
+    const auto rough = [](const Vec3d& d) {
+        return Vec3d(2 + std::sin(5 * d.x + 3 * d.y + 2 * d.z));
+    };
     EnvironmentMap cube = sampled(Projection::cube, 32, rough);
     EXPECT_NEAR(seam_ratio(cube), 1, 0.1);
     for (float& value : cube.levels[0].faces[2].values()) value *= 1.5f;
@@ -52,12 +54,14 @@ TEST(EnvironmentMap, SizesAreChecked) {
     EXPECT_THROW((void)make_environment_map(Projection::cube, 0), Error);
     EXPECT_THROW((void)make_environment_map(Projection::equirect, 1), Error);
     EXPECT_EQ(environment_map_bytes(Projection::cube, 16), 6u * 16 * 16 * 12);
-    EXPECT_GT(environment_map_bytes(Projection::cube, std::int64_t{1} << 40), std::uint64_t{1} << 60);
+    EXPECT_GT(environment_map_bytes(Projection::cube, std::int64_t{1} << 40),
+              std::uint64_t{1} << 60);
 }
 
 // 1 % more of one channel over a quarter of the sphere, by hand.
 TEST(Compare, FiguresAreTheDefinitions) {
-    const EnvironmentMap b = sampled(Projection::equal_area_octahedral, 8, [](const Vec3d&) { return Vec3d(1, 2, 2); });
+    const EnvironmentMap b =
+        sampled(Projection::equal_area_octahedral, 8, [](const Vec3d&) { return Vec3d(1, 2, 2); });
     EnvironmentMap a = b;
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) a.levels[0].faces[0].set_rgb(x, y, {1.5f, 2, 2});

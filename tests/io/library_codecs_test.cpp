@@ -406,8 +406,7 @@ TEST(Tiff, WhatIsNotReadIsNamed) {
     refused({8, SAMPLEFORMAT_UINT, 5, false, false}, {"5 channels", "3 to 4"});
     refused({8, SAMPLEFORMAT_UINT, 4, false, false, PHOTOMETRIC_SEPARATED},
             {"kind 5", "grey or RGB"});
-    refused({8, SAMPLEFORMAT_UINT, 3, false, false, PHOTOMETRIC_CIELAB},
-            {"kind 8", "grey or RGB"});
+    refused({8, SAMPLEFORMAT_UINT, 3, false, false, PHOTOMETRIC_CIELAB}, {"kind 8", "grey or RGB"});
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 namespace mirrorball {
 namespace {
 
-const char* const kLobes[] = {"diffuse",         "phong:0",         "phong:1",   "phong:10",
-                              "phong:1000",      "phong:100000",    "ggx:0.05",  "ggx:0.125",
-                              "ggx:0.5",         "ggx:0.9",         "ggx:0.999", "ggx:1",
-                              "blinn-phong:0",   "blinn-phong:1.5", "blinn-phong:400"};
+const char* const kLobes[] = {"diffuse",       "phong:0",         "phong:1",        "phong:10",
+                              "phong:1000",    "phong:100000",    "ggx:0.05",       "ggx:0.125",
+                              "ggx:0.5",       "ggx:0.9",         "ggx:0.999",      "ggx:1",
+                              "blinn-phong:0", "blinn-phong:1.5", "blinn-phong:400"};
 
 // The integral over the cap of a given angle, by the midpoint rule in a variable that spends its
 // points near the axis: theta = angle x^4.
@@ -22,7 +22,8 @@ double integrate(const Lobe& lobe, double angle) {
     double sum = 0;
     for (int i = 0; i < count; ++i) {
         const double x = (i + 0.5) / count, theta = angle * x * x * x * x;
-        sum += lobe.value(std::cos(theta)) * 2 * kPi * std::sin(theta) * 4 * angle * x * x * x / count;
+        sum +=
+            lobe.value(std::cos(theta)) * 2 * kPi * std::sin(theta) * 4 * angle * x * x * x / count;
     }
     return sum;
 }
@@ -39,7 +40,8 @@ TEST(Lobe, AngleHoldsItsShare) {
         const Lobe lobe = parse_lobe(text);
         for (const double share : {0.1, 0.5, 0.9, 0.999}) {
             const double angle = lobe.angle_holding(share);
-            EXPECT_NEAR(integrate(lobe, angle) / lobe.integral(), share, 3e-6) << text << " " << share;
+            EXPECT_NEAR(integrate(lobe, angle) / lobe.integral(), share, 3e-6)
+                << text << " " << share;
         }
     }
     EXPECT_EQ(parse_lobe("mirror").angle_holding(0.999), 0);
@@ -67,8 +69,9 @@ TEST(Lobe, TextComesBack) {
 }
 
 TEST(Lobe, RefusesWhatIsNone) {
-    for (const char* text : {"", "gloss", "ggx", "ggx:", "ggx:1.5", "ggx:-0.1", "ggx:nan", "ggx:inf",
-                             "phong:-1", "phong:ten", "phong:inf", "diffuse:1", "phong:10 "}) {
+    for (const char* text :
+         {"", "gloss", "ggx", "ggx:", "ggx:1.5", "ggx:-0.1", "ggx:nan", "ggx:inf", "phong:-1",
+          "phong:ten", "phong:inf", "diffuse:1", "phong:10 "}) {
         try {
             (void)parse_lobe(text);
             ADD_FAILURE() << text;

@@ -35,7 +35,8 @@ double first_order(const Lobe& lobe) {
     constexpr int count = 200000;
     for (int i = 0; i < count; ++i) {
         const double x = (i + 0.5) / count, theta = kPi / 2 * x * x;
-        sum += lobe.value(std::cos(theta)) * std::cos(theta) * 2 * kPi * std::sin(theta) * kPi * x / count;
+        sum += lobe.value(std::cos(theta)) * std::cos(theta) * 2 * kPi * std::sin(theta) * kPi * x /
+               count;
     }
     return sum;
 }
@@ -51,7 +52,8 @@ TEST(Prefilter, LinearRampsComeOutByFunkHecke) {
             return Vec3d(lobe.integral() * (1 + through * slope.dot(r)));
         });
         // the sum over 256 x 128 texels, against the integral: 2.8e-4 measured, for the narrowest
-        EXPECT_LT(compare(prefilter_reference(source, target(text)), expected).maximum_relative, 5e-4)
+        EXPECT_LT(compare(prefilter_reference(source, target(text)), expected).maximum_relative,
+                  5e-4)
             << text;
         EXPECT_LT(compare(fast(source, target(text)), expected).maximum_relative, 4e-3) << text;
     }
@@ -76,8 +78,10 @@ TEST(Prefilter, OneLitTexelBecomesTheLobe) {
 
 TEST(Prefilter, UniformLightStaysUniform) {
     for (const Projection from : {Projection::equirect, Projection::cube, Projection::sphere}) {
-        const EnvironmentMap source = sampled(from, 32, [](const Vec3d&) { return Vec3d(0.5, 1, 3e4); });
-        for (const char* text : {"diffuse", "phong:20", "phong:10000000", "ggx:0.001", "ggx:0.6", "mirror"}) {
+        const EnvironmentMap source =
+            sampled(from, 32, [](const Vec3d&) { return Vec3d(0.5, 1, 3e4); });
+        for (const char* text :
+             {"diffuse", "phong:20", "phong:10000000", "ggx:0.001", "ggx:0.6", "mirror"}) {
             const double scale = parse_lobe(text).integral();
             for (const bool reference : {true, false}) {
                 const EnvironmentMap map = reference ? prefilter_reference(source, target(text, 4))
@@ -102,13 +106,15 @@ EnvironmentMap sun_over_dim_sky() {
 EnvironmentMap noise() {
     std::mt19937 random(23);
     std::uniform_real_distribution<double> uniform;
-    return sampled(Projection::cube, 48,
-                   [&](const Vec3d&) { return Vec3d(uniform(random), uniform(random), uniform(random)); });
+    return sampled(Projection::cube, 48, [&](const Vec3d&) {
+        return Vec3d(uniform(random), uniform(random), uniform(random));
+    });
 }
 
 void expect_fast_near_truth(const EnvironmentMap& source, const char* what) {
     for (const char* text : kLobes) {
-        const Difference d = compare(fast(source, target(text)), prefilter_reference(source, target(text)));
+        const Difference d =
+            compare(fast(source, target(text)), prefilter_reference(source, target(text)));
         EXPECT_LT(d.relative_rmse, 2.5e-3) << what << " " << text;
         // the largest stands where only the crease at a lobe's horizon sees a light
         EXPECT_LT(d.maximum_relative, 6e-2) << what << " " << text;
@@ -133,22 +139,24 @@ TEST(Prefilter, FastIsNearTheTruthOnRealPanoramas) {
 }
 
 TEST(Prefilter, EveryProjectionInAndOutGivesTheSame) {
-    const EnvironmentMap expected = prefilter_reference(averaged(Projection::equirect, 128, smooth_light),
-                                                        target("ggx:0.5", 64, Projection::equirect));
+    const EnvironmentMap expected =
+        prefilter_reference(averaged(Projection::equirect, 128, smooth_light),
+                            target("ggx:0.5", 64, Projection::equirect));
     for (std::size_t i = 0; i < kProjectionCount; ++i) {
         const auto projection = static_cast<Projection>(i);
         const EnvironmentMap source = averaged(projection, size_for(projection, 128), smooth_light);
         const EnvironmentMap map =
             prefilter_reference(source, target("ggx:0.5", 64, Projection::equirect));
         // a sphere map's rim is coarse: 5e-3 measured; all others are below 1e-3
-        EXPECT_LT(compare(map, expected).maximum_relative, projection == Projection::sphere ? 1e-2 : 2e-3)
+        EXPECT_LT(compare(map, expected).maximum_relative,
+                  projection == Projection::sphere ? 1e-2 : 2e-3)
             << name(projection);
         const int size = size_for(projection, 64);
-        const EnvironmentMap there =
-            prefilter_reference(averaged(Projection::equirect, 128, smooth_light),
-                                target("ggx:0.5", size, projection));
+        const EnvironmentMap there = prefilter_reference(
+            averaged(Projection::equirect, 128, smooth_light), target("ggx:0.5", size, projection));
         for (int k = 0; k < 50; ++k) {
-            const Vec3d d = Vec3d(std::cos(k * 2.4), std::sin(k * 0.9), std::cos(k * 1.7 + 1)).normalized();
+            const Vec3d d =
+                Vec3d(std::cos(k * 2.4), std::sin(k * 0.9), std::cos(k * 1.7 + 1)).normalized();
             const auto read = [&](const EnvironmentMap& m) {
                 return visit(m.projection, [&](auto p) {
                     const auto at = decltype(p)::project(m.axes.to_map(d));

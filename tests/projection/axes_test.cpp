@@ -15,21 +15,26 @@ void expect_direction(const Vec3d& found, const Vec3d& expected) {
     EXPECT_LE((found - expected).length(), 1e-12) << found << " is not " << expected;
 }
 
-// The table of docs/conventions.md: each program's own forward map, in its own world, says where its
-// centre and its three quarters look; the world is then turned into ours by hand.
+// The table of docs/conventions.md: each program's own forward map, in its own world, says where
+// its centre and its three quarters look; the world is then turned into ours by hand.
 TEST(Axes, EquirectPresetsLookWhereTheProgramsSay) {
     const struct {
         const char* program;
         Vec3d centre, three_quarters;
     } rows[] = {
-        {"mirrorball", {0, 0, -1}, {1, 0, 0}}, {"debevec", {0, 0, -1}, {1, 0, 0}},
-        {"three.js", {1, 0, 0}, {0, 0, 1}},    {"gltf", {1, 0, 0}, {0, 0, 1}},
-        {"openexr", {0, 0, 1}, {-1, 0, 0}},    {"oiio-y-up", {0, 0, 1}, {-1, 0, 0}},
+        {"mirrorball", {0, 0, -1}, {1, 0, 0}},
+        {"debevec", {0, 0, -1}, {1, 0, 0}},
+        {"three.js", {1, 0, 0}, {0, 0, 1}},
+        {"gltf", {1, 0, 0}, {0, 0, 1}},
+        {"openexr", {0, 0, 1}, {-1, 0, 0}},
+        {"oiio-y-up", {0, 0, 1}, {-1, 0, 0}},
         {"mitsuba", {0, 0, 1}, {-1, 0, 0}},
         // z up, left-handed: (x, y, z) is (x, z, y) of ours
-        {"renderman", {1, 0, 0}, {0, 0, 1}},   {"oiio", {1, 0, 0}, {0, 0, 1}},
+        {"renderman", {1, 0, 0}, {0, 0, 1}},
+        {"oiio", {1, 0, 0}, {0, 0, 1}},
         // Blender's -Y is our +Z; Unity's -Z is our +Z
-        {"blender", {1, 0, 0}, {0, 0, 1}},     {"unity", {1, 0, 0}, {0, 0, 1}},
+        {"blender", {1, 0, 0}, {0, 0, 1}},
+        {"unity", {1, 0, 0}, {0, 0, 1}},
         {"cmft", {0, 0, -1}, {1, 0, 0}},
     };
     for (const auto& row : rows) {
@@ -70,7 +75,8 @@ TEST(Axes, TextComesBack) {
 }
 
 TEST(Axes, RefusesWhatIsNoFrame) {
-    for (const char* text : {"", "+x+x+z", "+x+y", "+x+y+w", "1 0 0 0 1 0 0 0 2", "1 0 0", "photoshop"}) {
+    for (const char* text :
+         {"", "+x+x+z", "+x+y", "+x+y+w", "1 0 0 0 1 0 0 0 2", "1 0 0", "photoshop"}) {
         try {
             (void)parse_axes(text, Projection::equirect);
             ADD_FAILURE() << text;

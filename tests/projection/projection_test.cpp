@@ -147,8 +147,7 @@ TYPED_TEST(ProjectionLaws, SolidAngleIsTheIntegralOfTheDensity) {
                     if (P::covers(p)) sum += P::density(p);
                 }
             sum *= du * dv / (steps * steps);
-            const double exact =
-                P::solid_angle(0, {x * du, y * dv, (x + 1) * du, (y + 1) * dv});
+            const double exact = P::solid_angle(0, {x * du, y * dv, (x + 1) * du, (y + 1) * dv});
             // a texel that the rim cuts is known by this rule to about one part in 64 of its edge
             const bool cut = exact < 0.999 * sum || exact > 1.001 * sum;
             EXPECT_NEAR(exact, sum, cut ? 0.02 * P::density({0, .5, .5}) * du * dv : 1e-3 * sum)
@@ -169,9 +168,9 @@ TYPED_TEST(ProjectionLaws, TangentsAreTheDerivativesOfTheDirection) {
         };
         // not where the map has a crease or an end within reach of the difference quotient
         const double x = 2 * p.s - 1, y = 1 - 2 * p.t;
-        const double crease = std::min({std::abs(x), std::abs(y),
-                                        std::abs(std::abs(x) + std::abs(y) - 1),
-                                        std::abs(1 - std::hypot(x, y))});
+        const double crease =
+            std::min({std::abs(x), std::abs(y), std::abs(std::abs(x) + std::abs(y) - 1),
+                      std::abs(1 - std::hypot(x, y))});
         if (crease < 0.01 || !P::covers(p)) continue;
         const Tangents<double> tangents = P::tangents(p, P::direction(p));
         const Vec3d ds = (P::direction(moved(h, 0)) - P::direction(moved(-h, 0))) / (2 * h);
@@ -260,8 +259,8 @@ TEST(Cube, NeighboursLineUpAcrossEdges) {
     constexpr int size = 8;
     for (int face = 0; face < 6; ++face) {
         for (int i = 0; i < size; ++i) {
-            for (const auto& [x, y] : {std::pair(-1, i), std::pair(size, i), std::pair(i, -1),
-                                       std::pair(i, size)}) {
+            for (const auto& [x, y] :
+                 {std::pair(-1, i), std::pair(size, i), std::pair(i, -1), std::pair(i, size)}) {
                 const FacePoint<double> out = texel_centre<Cube>(face, x, y, size);
                 const FacePoint<double> p = Cube::wrap(out);
                 EXPECT_NE(p.face, face);
@@ -269,17 +268,18 @@ TEST(Cube, NeighboursLineUpAcrossEdges) {
                 EXPECT_NEAR(cx, std::round(cx), 1e-12);
                 EXPECT_NEAR(cy, std::round(cy), 1e-12);
                 // and from there back
-                const int bx = static_cast<int>(std::round(cx)), by = static_cast<int>(std::round(cy));
+                const int bx = static_cast<int>(std::round(cx)),
+                          by = static_cast<int>(std::round(cy));
                 bool found = false;
-                for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1),
-                                             std::pair(0, -1)}) {
+                for (const auto& [dx, dy] :
+                     {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
                     const FacePoint<double> back =
                         Cube::wrap(texel_centre<Cube>(p.face, bx + dx, by + dy, size));
                     const int hx = x < 0 ? 0 : x == size ? size - 1 : x;
                     const int hy = y < 0 ? 0 : y == size ? size - 1 : y;
-                    found = found || (back.face == face &&
-                                      std::abs(back.s * size - 0.5 - hx) < 1e-9 &&
-                                      std::abs(back.t * size - 0.5 - hy) < 1e-9);
+                    found =
+                        found || (back.face == face && std::abs(back.s * size - 0.5 - hx) < 1e-9 &&
+                                  std::abs(back.t * size - 0.5 - hy) < 1e-9);
                 }
                 EXPECT_TRUE(found) << face << " " << x << " " << y;
             }
@@ -317,7 +317,7 @@ TEST(DualParaboloid, AgreesWithTheSurveysMatrices) {
     for (const Vec3d& r : random_directions(1000)) {
         const bool front = r.z >= 0;
         const Vec3d d_o(0, 0, front ? -1 : 1);
-        const Vec3d sum = d_o - r;                    // S
+        const Vec3d sum = d_o - r;                          // S
         const double x = sum.x / sum.z, y = sum.y / sum.z;  // P and its division
         const FacePoint<double> p = DualParaboloid::project(r);
         EXPECT_EQ(p.face, front ? 0 : 1);
@@ -351,7 +351,8 @@ TEST(EqualAreaOctahedral, EveryTexelIsAsLarge) {
 
 // Section 3 of the survey, measured; the closed forms are in docs/theory/projections.md.
 TEST(ProjectionFacts, AreTheClosedForms) {
-    const ProjectionFacts cube = measure(Projection::cube), dual = measure(Projection::dual_paraboloid);
+    const ProjectionFacts cube = measure(Projection::cube),
+                          dual = measure(Projection::dual_paraboloid);
     // the limits belong to points, the measured ones to texels of 1/512 of a face
     EXPECT_DOUBLE_EQ(cube.used_share, 1);
     EXPECT_NEAR(cube.solid_angle_ratio, 3 * std::sqrt(3.0), 0.03);

@@ -40,10 +40,10 @@ double flux_error(const EnvironmentMap& found, const EnvironmentMap& expected) {
 }
 
 // All 49 pairs: a smooth function arrives as itself. With 128 texels around, the curvature of the
-// function over a texel is (2 pi / 128)^2 / 8 x 4 = 1e-3 of it at most; most of the sphere has less.
-// At the rim of a sphere map single texels reach over tens of degrees, in which no bound on the
-// largest error means much, and what is read from there is that coarse; the texels of an angular
-// map's rim are wide, too, and their neighbours across it are only the nearest ones.
+// function over a texel is (2 pi / 128)^2 / 8 x 4 = 1e-3 of it at most; most of the sphere has
+// less. At the rim of a sphere map single texels reach over tens of degrees, in which no bound on
+// the largest error means much, and what is read from there is that coarse; the texels of an
+// angular map's rim are wide, too, and their neighbours across it are only the nearest ones.
 TEST(Resample, SmoothLightArrivesFromEveryProjectionInEveryOther) {
     for (const Projection from : all_projections()) {
         const EnvironmentMap source = averaged(from, size_for(from, 128), smooth_light);
@@ -55,8 +55,10 @@ TEST(Resample, SmoothLightArrivesFromEveryProjectionInEveryOther) {
                 const EnvironmentMap truth = averaged(target, size, smooth_light);
                 const Difference d = compare(result, truth);
                 const auto either = [&](Projection p) { return from == p || target == p; };
-                const bool sphere = either(Projection::sphere), angular = either(Projection::angular);
-                EXPECT_LT(d.relative_rmse, from == Projection::sphere ? 1e-2 : 1.5e-3) << texels_around;
+                const bool sphere = either(Projection::sphere),
+                           angular = either(Projection::angular);
+                EXPECT_LT(d.relative_rmse, from == Projection::sphere ? 1e-2 : 1.5e-3)
+                    << texels_around;
                 EXPECT_LT(d.maximum_relative, sphere ? 0.35 : 3e-2)
                     << d.face << " " << d.x << " " << d.y;
                 EXPECT_LT(flux_error(result, source), sphere || angular ? 1.2e-3 : 2e-4)
@@ -84,12 +86,15 @@ EnvironmentMap many_lights() {
 
 void expect_flux_kept_everywhere(const EnvironmentMap& source) {
     for (const Projection target : all_projections()) {
-        const int size = size_for(target, source.width() - 2);  // not quite equal: no bits are copied
+        const int size =
+            size_for(target, source.width() - 2);  // not quite equal: no bits are copied
         EXPECT_LT(flux_error(to(source, target, size / 2 * 2), source), 1e-3) << name(target);
     }
 }
 
-TEST(Resample, FluxOfManyLightsIsKept) { expect_flux_kept_everywhere(many_lights()); }
+TEST(Resample, FluxOfManyLightsIsKept) {
+    expect_flux_kept_everywhere(many_lights());
+}
 
 TEST(Resample, FluxOfRealPanoramasIsKept) {
     for (const char* file : {"hdri/venice.hdr", "hdri/studio.hdr", "hdri/forest.hdr"}) {
@@ -116,7 +121,8 @@ TEST(Resample, WhatChangesNothingKeepsEveryBit) {
 
 TEST(Resample, UniformLightStaysUniform) {
     for (const Projection from : all_projections()) {
-        const EnvironmentMap source = sampled(from, 22, [](const Vec3d&) { return Vec3d(0.7, 1, 3); });
+        const EnvironmentMap source =
+            sampled(from, 22, [](const Vec3d&) { return Vec3d(0.7, 1, 3); });
         for (const Projection target : all_projections()) {
             for (const int size : {2, 6, 10, 64}) {
                 const EnvironmentMap result = to(source, target, size);
@@ -140,22 +146,23 @@ TEST(Resample, OneLitTexelKeepsItsFlux) {
         constexpr int count = 48;
         for (int i = 0; i < count; ++i) {
             EnvironmentMap source = make_environment_map(Projection::equirect, 256);
-            const int x = static_cast<int>(random() % 256), y = 12 + static_cast<int>(random() % 104);
+            const int x = static_cast<int>(random() % 256),
+                      y = 12 + static_cast<int>(random() % 104);
             source.levels[0].faces[0].set_rgb(x, y, {1e5f, 1e5f, 1e5f});
             const double error = flux(to(source, Projection::cube, size)).x / flux(source).x - 1;
             sum += error / count;
             worst = std::max(worst, std::abs(error));
         }
         // Where the grids lie askew a cell's box stands in for its parallelogram. Its share of a
-        // single texel is off by up to a quarter or so either way, by none on average: what a sun of
-        // several texels, or a panorama, sees (docs/theory/resampling.md has their figures).
+        // single texel is off by up to a quarter or so either way, by none on average: what a sun
+        // of several texels, or a panorama, sees (docs/theory/resampling.md has their figures).
         EXPECT_LT(std::abs(sum), 0.03) << size;
         EXPECT_LT(worst, 0.35) << size;
     }
 }
 
-// Truth by brute force: the mean over a texel of the bilinear interpolant of an equirect, in double,
-// with 24 x 24 samples weighed by solid angle, from nothing but the definitions.
+// Truth by brute force: the mean over a texel of the bilinear interpolant of an equirect, in
+// double, with 24 x 24 samples weighed by solid angle, from nothing but the definitions.
 Vec3d bilinear_equirect(const EnvironmentMap& map, const Vec3d& d) {
     const int width = map.width(), height = map.height();
     const Image& image = map.levels[0].faces[0];
@@ -171,7 +178,8 @@ Vec3d bilinear_equirect(const EnvironmentMap& map, const Vec3d& d) {
                 x += width / 2;
             }
             x = (x % width + width) % width;
-            const double weight = (i == 0 ? 1 - (u - x0) : u - x0) * (j == 0 ? 1 - (v - y0) : v - y0);
+            const double weight =
+                (i == 0 ? 1 - (u - x0) : u - x0) * (j == 0 ? 1 - (v - y0) : v - y0);
             sum += Vec3d(image.rgb(x, y)) * weight;
         }
     return sum;
@@ -197,7 +205,9 @@ TEST(Resample, TexelIsTheMeanOverItsSolidAngle) {
                             const FacePoint<double> p{face, (x + (i + 0.5) / steps) / size,
                                                       (y + (j + 0.5) / steps) / size};
                             const double w = Cube::density(p);
-                            sum += bilinear_equirect(source, result.axes.to_world(Cube::direction(p))) * w;
+                            sum += bilinear_equirect(source,
+                                                     result.axes.to_world(Cube::direction(p))) *
+                                   w;
                             weight += w;
                         }
                     const Vec3d difference =
@@ -213,7 +223,8 @@ TEST(Resample, TexelIsTheMeanOverItsSolidAngle) {
 
 // A sun over a dim sky, made finer: no dark ring and nothing brighter than the sun.
 TEST(Resample, NothingGoesBeyondTheSource) {
-    EnvironmentMap source = sampled(Projection::equirect, 64, [](const Vec3d&) { return Vec3d(0.01); });
+    EnvironmentMap source =
+        sampled(Projection::equirect, 64, [](const Vec3d&) { return Vec3d(0.01); });
     source.levels[0].faces[0].set_rgb(40, 10, {1e5f, 1e5f, 1e5f});
     for (const Interpolation interpolation : {Interpolation::bilinear, Interpolation::bicubic}) {
         const LevelStatistics s = statistics(to(source, Projection::cube, 128, interpolation));
@@ -244,7 +255,8 @@ TEST(Resample, FramesAreHonoured) {
         const Axes axes = parse_axes(frame, Projection::cube);
         const EnvironmentMap cube = resample(source, Projection::cube, 64, axes);
         EXPECT_EQ(cube.axes, axes);
-        EXPECT_LT(compare(cube, sampled(Projection::cube, 64, axes, smooth_light)).relative_rmse, 1e-3)
+        EXPECT_LT(compare(cube, sampled(Projection::cube, 64, axes, smooth_light)).relative_rmse,
+                  1e-3)
             << frame;
         // and out of that frame again
         const EnvironmentMap back = resample(cube, Projection::equirect, 256, Axes{});
@@ -255,15 +267,14 @@ TEST(Resample, FramesAreHonoured) {
 TEST(Resample, QuarterTurnOfAnEquirectIsAShift) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform;
-    const EnvironmentMap source = sampled(Projection::equirect, 64, [&](const Vec3d&) {
-        return Vec3d(uniform(random));
-    });
+    const EnvironmentMap source =
+        sampled(Projection::equirect, 64, [&](const Vec3d&) { return Vec3d(uniform(random)); });
     EnvironmentMap turned = source;
     turned.axes = rotated(turned.axes, kPi / 2, 0, 0);
-    const EnvironmentMap result = resample(turned, Projection::equirect, 64, Axes{},
-                                           {Interpolation::bicubic, {}});
-    // the content moves to the left by a quarter; each texel is averaged over itself, which blurs the
-    // noise by known weights (3/4 and 1/8 twice, along each axis away from the poles)
+    const EnvironmentMap result =
+        resample(turned, Projection::equirect, 64, Axes{}, {Interpolation::bicubic, {}});
+    // the content moves to the left by a quarter; each texel is averaged over itself, which blurs
+    // the noise by known weights (3/4 and 1/8 twice, along each axis away from the poles)
     for (int y = 10; y < 22; ++y)
         for (int x = 0; x < 64; ++x) {
             double expected = 0;
@@ -302,7 +313,8 @@ TEST(Resample, SmallestMaps) {
 TEST(Resample, StopsWhenAsked) {
     const EnvironmentMap source = sampled(Projection::equirect, 64, smooth_light);
     try {
-        (void)resample(source, Projection::cube, 64, {}, {Interpolation::bicubic, [](double) { return false; }});
+        (void)resample(source, Projection::cube, 64, {},
+                       {Interpolation::bicubic, [](double) { return false; }});
         FAIL();
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), Errc::cancelled);
@@ -320,7 +332,8 @@ TEST(MipLevels, KeepTheFlux) {
             EXPECT_EQ(map.levels.back().height(), 1);
             for (int level = 1; level < map.level_count(); ++level)
                 for (int c = 0; c < 3; ++c)
-                    EXPECT_NEAR(flux(map, level)[c] / flux(map)[c], 1, 1e-6) << name(p) << " " << level;
+                    EXPECT_NEAR(flux(map, level)[c] / flux(map)[c], 1, 1e-6)
+                        << name(p) << " " << level;
         }
     }
 }

@@ -1,4 +1,5 @@
-// Angular map, the "light probe" format: the distance from the centre is the angle from -z. Debevec.
+// Angular map, the "light probe" format: the distance from the centre is the angle from -z.
+// Debevec.
 //
 //     rho = acos(-z) / pi  along (x, y)                   on the unit disc, x right and y up
 //     dw = pi sin(pi rho) / rho dx dy

@@ -1,5 +1,5 @@
-// The angle of a point in the plane, several times faster than std::atan2 and as exact to a rounding:
-// what equirectangular, angular and equal-area maps spend their time on.
+// The angle of a point in the plane, several times faster than std::atan2 and as exact to a
+// rounding: what equirectangular, angular and equal-area maps spend their time on.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@ inline constexpr int kArctanSteps = 64;
 
 inline const std::array<double, kArctanSteps + 1> kArctanTable = [] {
     std::array<double, kArctanSteps + 1> table{};
-    for (int i = 0; i <= kArctanSteps; ++i) table[i] = std::atan(static_cast<double>(i) / kArctanSteps);
+    for (int i = 0; i <= kArctanSteps; ++i)
+        table[i] = std::atan(static_cast<double>(i) / kArctanSteps);
     return table;
 }();
 

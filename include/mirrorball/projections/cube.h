@@ -1,4 +1,5 @@
-// Cube map: six square faces, +X -X +Y -Y +Z -Z, the OpenGL, Vulkan and Direct3D layout. Greene 1986.
+// Cube map: six square faces, +X -X +Y -Y +Z -Z, the OpenGL, Vulkan and Direct3D layout. Greene
+// 1986.
 //
 //     face   s along   t along   major axis m       the survey's Eq. 3 and Table 1, mended:
 //     +X     -z        -y        +x                     s = (sc / |m| + 1) / 2
@@ -10,8 +11,8 @@
 //
 //     dw = 4 (1 + a^2 + b^2)^(-3/2) ds dt,  a = 2s - 1, b = 2t - 1
 //
-// The frame is the cube's own: left-handed when the faces are pictures seen from inside. A map's axes
-// (axes.h) say how it lies in the world.
+// The frame is the cube's own: left-handed when the faces are pictures seen from inside. A map's
+// axes (axes.h) say how it lies in the world.
 #pragma once
 
 #include <cmath>
@@ -69,7 +70,8 @@ struct Cube {
     }
 
     /// Folds what reaches over an edge down onto the next face, so that texels there line up with
-    /// texels here. Beyond a corner, where three faces meet and there is no fourth, t is held first.
+    /// texels here. Beyond a corner, where three faces meet and there is no fourth, t is held
+    /// first.
     template <class T>
     static FacePoint<T> wrap(const FacePoint<T>& p) {
         T a = 2 * p.s - 1, b = 2 * p.t - 1, m = 1;

@@ -1,8 +1,9 @@
 // Exact solid angles for the maps that live in a disc: sphere map, angular map, paraboloid.
 //
-// All three are round: the solid angle inside radius rho and a wedge dphi is W(rho^2) dphi. By Green's
-// theorem the solid angle of any region is the integral of W dphi around it; where the boundary runs
-// outside the unit disc, the wedge it sweeps ends at the rim, so W(1) takes W's place:
+// All three are round: the solid angle inside radius rho and a wedge dphi is W(rho^2) dphi. By
+// Green's theorem the solid angle of any region is the integral of W dphi around it; where the
+// boundary runs outside the unit disc, the wedge it sweeps ends at the rim, so W(1) takes W's
+// place:
 //
 //     solid angle of (rectangle and disc) = closed integral of W(min(q, 1)) dphi,  q = x^2 + y^2
 //
@@ -56,7 +57,9 @@ double disc_edge(double p, double u0, double u1) {
     const double half_chord = std::abs(p) < 1 ? std::sqrt(1 - p * p) : 0;
     const double in0 = std::clamp(u0, -half_chord, half_chord);
     const double in1 = std::clamp(u1, -half_chord, half_chord);
-    const auto angle = [p](double from, double to) { return std::atan(to / p) - std::atan(from / p); };
+    const auto angle = [p](double from, double to) {
+        return std::atan(to / p) - std::atan(from / p);
+    };
     const double inside = in0 != in1 ? Map::edge_integral(p, in0, in1) : 0;
     return inside + Map::rim * (angle(u0, in0) + angle(in1, u1));
 }

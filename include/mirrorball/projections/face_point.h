@@ -18,8 +18,8 @@ struct FaceRect {
     double s0, t0, s1, t1;
 };
 
-/// How the direction moves with the point: d direction / ds and d direction / dt. Their cross product
-/// has the length of the density, dw / (ds dt).
+/// How the direction moves with the point: d direction / ds and d direction / dt. Their cross
+/// product has the length of the density, dw / (ds dt).
 template <class T>
 struct Tangents {
     Vec3<T> ds, dt;

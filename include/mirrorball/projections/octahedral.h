@@ -4,8 +4,8 @@
 //     p = d / (|x| + |y| + |z|);  z >= 0: (p_x, p_y);  else ((1-|p_y|) sgn p_x, (1-|p_x|) sgn p_y)
 //     on [-1,1]^2, x right and y up;  dw = 1 / |p|^3 dx dy
 //
-// The centre is +z, the four corners are -z: each edge of the picture meets itself, folded about its
-// middle. Axes say where the fold axis z points: preset "fold-y" puts it up.
+// The centre is +z, the four corners are -z: each edge of the picture meets itself, folded about
+// its middle. Axes say where the fold axis z points: preset "fold-y" puts it up.
 #pragma once
 
 #include <algorithm>

@@ -1,12 +1,13 @@
-// Sphere map: the picture of a small, perfect mirror ball, seen from +z by an orthographic camera that
-// looks along -z. OpenGL's GL_SPHERE_MAP; the survey's Eq. 1 and 2; a photograph of a mirror ball.
+// Sphere map: the picture of a small, perfect mirror ball, seen from +z by an orthographic camera
+// that looks along -z. OpenGL's GL_SPHERE_MAP; the survey's Eq. 1 and 2; a photograph of a mirror
+// ball.
 //
 //     (x, y) = (r_x, r_y) / m,  m = sqrt(2 (r_z + 1))     on the unit disc, x right and y up
 //     r = 2 h_z h - (0, 0, 1),  h = (x, y, sqrt(1 - x^2 - y^2)) the ball's normal
 //     dw = 4 dx dy                                        equal-area
 //
-// The centre shows what is behind the camera, +z. The whole rim is the one direction -z; there texels
-// are stretched without bound, though none is larger than another.
+// The centre shows what is behind the camera, +z. The whole rim is the one direction -z; there
+// texels are stretched without bound, though none is larger than another.
 #pragma once
 
 #include <cmath>
