@@ -24,6 +24,7 @@ build   libjpeg62-turbo-dev    JPEG files (reading)
 build   libtiff-dev            TIFF files
 build   libzstd-dev            Zstandard supercompression in KTX2 files
 build   libtbb-dev             threads
+build   libhwy-dev             Highway: vector code for every processor from one source
 build   libfmt-dev             messages (g++ 12 has no std::format)
 build   libcli11-dev           the program's options
 build   nlohmann-json3-dev     bake.json and the output of --json
