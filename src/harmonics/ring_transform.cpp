@@ -6,6 +6,7 @@
 
 #include <mirrorball/vector.h>
 
+#include "core/flush_denormals.h"
 #include "core/parallel.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -187,8 +188,8 @@ void to_spectra(const FourierPlan& plan, Columns columns, const float* weights, 
 }
 
 // Degrees in twos of two, so that a group's values are loaded once for four degrees.
-void analyse_order(const LegendreOrder& order, const float* spectra, double* state, float* sums,
-                   float* coefficients) {
+void analyse_order(const LegendreOrder& order, const float* spectra, double* state,
+                   float* functions, float* sums, float* coefficients) {
     const Lanes d;
     const std::size_t n = hn::Lanes(d);
     int first = order.group_count;
@@ -197,16 +198,22 @@ void analyse_order(const LegendreOrder& order, const float* spectra, double* sta
             const std::size_t at = static_cast<std::size_t>(first - 1) * 2 * n;
             std::memcpy(state + at, order.seeds + at, 2 * n * sizeof(double));
         }
-        Vec sum[2][kParts];
-        for (int i = 0; i < kParts; ++i) sum[0][i] = sum[1][i] = hn::Zero(d);
+        // first the functions, then the sums: both at once do not fit the registers
         for (int group = first; group < order.group_count; ++group) {
             double* const saved = state + static_cast<std::size_t>(group) * 2 * n;
             Recurrence p(order.x + static_cast<std::size_t>(group) * n, saved);
-            const Vec p0 = p.value();
+            float* const to = functions + static_cast<std::size_t>(group) * 2 * n;
+            hn::Store(p.value(), d, to);
             p.advance(order.steps[step]);
-            const Vec p1 = p.value();
+            hn::Store(p.value(), d, to + n);
             p.advance(order.steps[step + 1]);
             p.save(saved);
+        }
+        Vec sum[2][kParts];
+        for (int i = 0; i < kParts; ++i) sum[0][i] = sum[1][i] = hn::Zero(d);
+        for (int group = first; group < order.group_count; ++group) {
+            const float* const p = functions + static_cast<std::size_t>(group) * 2 * n;
+            const Vec p0 = hn::Load(d, p), p1 = hn::Load(d, p + n);
             const float* const values = spectra + order.group_stride * group;
             HWY_UNROLL(12)
             for (int i = 0; i < kParts; ++i) {
@@ -412,20 +419,23 @@ LegendreOrder RingTransform::legendre_order(int m) const {
 
 void RingTransform::analyse(const RingSpectra& spectra, Harmonics& harmonics) const {
     parallel_for(band_count_, [&](std::int64_t i) {
+        const FlushDenormals flush;
         const int m = static_cast<int>(i);
         const LegendreOrder order = legendre_order(m);
         AlignedArray<double> state(static_cast<std::size_t>(group_count_) * 2 * lane_count_);
+        AlignedArray<float> functions(static_cast<std::size_t>(group_count_) * 2 * lane_count_);
         // in steps of two, and each sum is stored with a vector's rest
         AlignedArray<float> sums(static_cast<std::size_t>(order.step_count + 1) * kParts + 16);
         const float* const from = spectra.data() + static_cast<std::size_t>(m) * kParts * lane_count_;
         HWY_DYNAMIC_DISPATCH(analyse_order)
-        (order, from, state.data(), sums.data(), harmonics.order(m).data());
+        (order, from, state.data(), functions.data(), sums.data(), harmonics.order(m).data());
     });
 }
 
 void RingTransform::synthesise(const Harmonics& harmonics, std::span<const float> zonal,
                                RingSpectra& spectra) const {
     parallel_for(band_count_, [&](std::int64_t i) {
+        const FlushDenormals flush;
         const int m = static_cast<int>(i);
         const LegendreOrder order = legendre_order(m);
         const std::span<const float> coefficients = harmonics.order(m);
