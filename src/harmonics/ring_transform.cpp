@@ -150,7 +150,7 @@ void load_columns(const float* north, const float* south, std::size_t stride, st
 }
 
 // Transforms one channel of a group and unpacks north + i south into even and odd parts.
-void to_spectra(const FourierPlan& plan, Columns columns, const float* weights, const double* x,
+void to_spectra(const FourierPlan& plan, const Columns& columns, const float* weights, const double* x,
                 int channel, int order_count, float* values, float* scratch, float* spectra) {
     const Lanes d;
     const std::size_t n = hn::Lanes(d), length = plan.length();
@@ -166,19 +166,18 @@ void to_spectra(const FourierPlan& plan, Columns columns, const float* weights, 
         const Complexes north{hn::Add(a.re, b.re), hn::Sub(a.im, b.im)};
         const Complexes south{hn::Add(a.im, b.im), hn::Sub(b.re, a.re)};
         const Complexes even = north + south, odd = north - south;
-        Vec parts[4];  // cosines and sines of even, then of odd
-        if (columns == Columns::from_z) {
-            parts[0] = even.re, parts[1] = hn::Neg(even.im);
-            parts[2] = odd.re, parts[3] = hn::Neg(odd.im);
-        } else {
-            const double angle = m * kPi / static_cast<double>(length);
-            const Vec c = hn::Set(d, static_cast<float>(std::cos(angle)));
-            const Vec s = hn::Set(d, static_cast<float>(std::sin(angle)));
-            parts[0] = hn::MulAdd(even.re, c, hn::Mul(even.im, s));
-            parts[1] = hn::MulSub(even.im, c, hn::Mul(even.re, s));
-            parts[2] = hn::MulAdd(odd.re, c, hn::Mul(odd.im, s));
-            parts[3] = hn::MulSub(odd.im, c, hn::Mul(odd.re, s));
-        }
+        // times exp(-i m first), of the conjugate where columns run the other way; the cosines are
+        // the real part of that, the sines the imaginary part's opposite
+        const Vec c = hn::Set(d, static_cast<float>(std::cos(m * columns.first)));
+        const Vec s = hn::Set(d, static_cast<float>(columns.direction * std::sin(m * columns.first)));
+        const Vec sign = hn::Set(d, static_cast<float>(-columns.direction));
+        const auto cosines = [&](const Complexes& v) HWY_ATTR {
+            return hn::MulAdd(v.re, c, hn::Mul(v.im, s));
+        };
+        const auto sines = [&](const Complexes& v) HWY_ATTR {
+            return hn::Mul(sign, hn::MulSub(v.im, c, hn::Mul(v.re, s)));
+        };
+        const Vec parts[4] = {cosines(even), sines(even), cosines(odd), sines(odd)};
         float* const to = spectra + (static_cast<std::size_t>(m) * kParts + channel) * n;
         hn::Store(hn::Mul(parts[0], even_weight), d, to);
         hn::Store(hn::Mul(parts[1], even_weight), d, to + 3 * n);
@@ -393,7 +392,7 @@ void RingTransform::load_columns(int group, const float* columns, std::size_t st
 }
 
 void RingTransform::to_spectra(int group, std::array<GroupValues, 3>& planes, GroupValues& scratch,
-                               Columns columns, std::span<const float> ring_weights,
+                               const Columns& columns, std::span<const float> ring_weights,
                                RingSpectra& spectra) const {
     const std::size_t first = static_cast<std::size_t>(group) * lane_count_;
     float* const to = spectra.data() + padded(band_count_) * kParts * lane_count_ * group;

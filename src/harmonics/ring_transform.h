@@ -27,10 +27,11 @@ namespace mirrorball::detail {
 /// Rings that one vector of this processor holds.
 [[nodiscard]] int ring_lane_count();
 
-/// How the columns of a grid turn: azimuth psi = atan2(x, z), about +y.
-enum class Columns {
-    from_z,     ///< psi_k = 2 pi k / column_count
-    panorama,   ///< psi_k = -2 pi (k + 1/2) / column_count, as texels of an equirect
+/// Where the columns of a grid are: azimuth psi_k = first + direction * 2 pi k / column_count, about
+/// +y from +z towards +x.
+struct Columns {
+    double first = 0;
+    int direction = 1;  ///< or -1
 };
 
 /// Working memory between the two halves of a transform: what each pair of rings holds at each
@@ -67,7 +68,7 @@ class RingTransform {
     /// Fourier transform of one group; `ring_weights` multiplies each pair of rings. Overwrites
     /// the planes.
     void to_spectra(int group, std::array<GroupValues, 3>& planes, GroupValues& scratch,
-                    Columns columns, std::span<const float> ring_weights,
+                    const Columns& columns, std::span<const float> ring_weights,
                     RingSpectra& spectra) const;
     void analyse(const RingSpectra& spectra, Harmonics& harmonics) const;
 
@@ -76,7 +77,7 @@ class RingTransform {
     /// Degree l is multiplied by zonal[l]. \pre zonal.size() == band_count()
     void synthesise(const Harmonics& harmonics, std::span<const float> zonal,
                     RingSpectra& spectra) const;
-    /// With columns placed `from_z`; `ring_weights` as above, or empty.
+    /// With columns from +z on; `ring_weights` as above, or empty.
     void from_spectra(int group, const RingSpectra& spectra, std::span<const float> ring_weights,
                       std::array<GroupValues, 3>& planes, GroupValues& scratch) const;
 
