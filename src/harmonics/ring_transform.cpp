@@ -157,7 +157,7 @@ void to_spectra(const FourierPlan& plan, const Columns& columns, const float* we
     const float* const z = transform(plan, values, scratch);
     HWY_ALIGN float cosines_of_rings[16];
     for (std::size_t i = 0; i < n; ++i) cosines_of_rings[i] = static_cast<float>(x[i]);
-    const Vec even_weight = hn::Mul(hn::Load(d, weights), hn::Set(d, 0.5f));
+    const Vec even_weight = hn::Mul(hn::LoadU(d, weights), hn::Set(d, 0.5f));
     const Vec odd_weight = hn::Mul(even_weight, hn::Load(d, cosines_of_rings));
     for (int m = 0; m < order_count; ++m) {
         const std::size_t k = m % length, mate = (length - k) % length;
@@ -276,7 +276,7 @@ float* from_spectra(const FourierPlan& plan, const float* weights, int channel, 
     const Lanes d;
     const std::size_t n = hn::Lanes(d), length = plan.length();
     std::memset(values, 0, length * 2 * n * sizeof(float));
-    const Vec weight = weights != nullptr ? hn::Load(d, weights) : hn::Set(d, 1.0f);
+    const Vec weight = weights != nullptr ? hn::LoadU(d, weights) : hn::Set(d, 1.0f);
     for (int m = 0; m < order_count; ++m) {
         const float* const from = spectra + (static_cast<std::size_t>(m) * kParts + channel) * n;
         const Vec north_cos = hn::Mul(hn::Load(d, from), weight);

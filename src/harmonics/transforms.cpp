@@ -127,6 +127,13 @@ std::vector<double> SynthesisPlan::pair_colatitudes() const {
     return colatitudes;
 }
 
+std::vector<double> SynthesisPlan::wave_errors(std::span<const double> power) const {
+    const double step = kPi / rings_->ring_count();
+    std::vector<double> errors = TapDesign(power, step).wave_errors(step, rings_->band_count());
+    for (double& e : errors) e *= std::sqrt(2.0);  // along both directions
+    return errors;
+}
+
 void SynthesisPlan::run(const Harmonics& harmonics, std::span<const float> zonal,
                         std::span<const float> ring_weights, const Vec3f& lowest,
                         const Vec3f& highest, std::vector<Image>& faces) const {
