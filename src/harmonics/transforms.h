@@ -22,7 +22,7 @@ namespace mirrorball::detail {
 class AnalysisPlan {
   public:
     AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table, int band_count,
-                 std::span<const double> power);
+                 std::span<const double> power, std::shared_ptr<ScratchPool> scratch);
 
     /// \pre map has the plan's shape
     void run(const std::vector<Image>& faces, Harmonics& harmonics) const;
@@ -48,7 +48,7 @@ class SynthesisPlan {
   public:
     /// Degrees below `band_count`, with power `power`.
     SynthesisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table, int band_count,
-                  std::span<const double> power);
+                  std::span<const double> power, std::shared_ptr<ScratchPool> scratch);
 
     [[nodiscard]] const MapShape& shape() const { return shape_; }
     [[nodiscard]] int band_count() const { return rings_->band_count(); }

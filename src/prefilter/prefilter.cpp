@@ -25,8 +25,9 @@ namespace {
 
 using namespace detail;
 
-// More bands cost more than their share of the near part, which then does not grow.
-constexpr int kMostBands = 1024;
+// Lobes that need more bands have the whole source in their near part, which does not grow much
+// from fewer bands on.
+constexpr int kMostBands = 1024, kBandsBesideWholeSource = 512;
 
 // Texels this much brighter than the mean are lights: the near part puts them right one by one.
 constexpr float kLight = 24;
@@ -125,9 +126,10 @@ void PrefilterPlan::Plan::split_lobes(double tolerance) {
         const Lobe& lobe = targets_[i].lobe;
         if (lobe.is_delta()) return;
         Filtered& f = filtered_[i].emplace();
-        f.split = split_bands(lobe, std::min(0.1, kSlack * tolerance), kMostBands);
         f.whole_source_near =
             band_count(lobe, tolerance) > kMostBands || lobe.angle_holding(0.5) < 2 * texel;
+        f.split = split_bands(lobe, std::min(0.1, kSlack * tolerance),
+                              f.whole_source_near ? kBandsBesideWholeSource : kMostBands);
         f.far.assign(f.split.far.begin(), f.split.far.end());
     });
 }
@@ -140,10 +142,11 @@ void PrefilterPlan::Plan::make_transforms() {
     if (finest == nullptr) return;
     const int band_count = static_cast<int>(finest->far.size());
     const auto table = std::make_shared<const LegendreTable>(band_count);
+    const auto scratch = std::make_shared<ScratchPool>();
     // the analysis and every target's synthesis, the analysis first
     parallel_for(static_cast<std::int64_t>(targets_.size()) + 1, [&](std::int64_t i) {
         if (i == 0) {
-            analysis_.emplace(source_, table, band_count, squares(finest->split.far));
+            analysis_.emplace(source_, table, band_count, squares(finest->split.far), scratch);
             return;
         }
         auto& f = filtered_[i - 1];
@@ -151,7 +154,7 @@ void PrefilterPlan::Plan::make_transforms() {
         const PrefilterTarget& target = targets_[i - 1];
         const std::vector<double> power = squares(f->split.far);
         f->synthesis.emplace(MapShape{target.projection, target.size, target.axes}, table,
-                             static_cast<int>(f->far.size()), power);
+                             static_cast<int>(f->far.size()), power, scratch);
         f->waves = f->synthesis->wave_errors(power);
         f->lambda = zonal_coefficients(target.lobe, band_count);
         double kept = 0;
