@@ -90,13 +90,19 @@ HWY_ATTR void MakeStencils(const Box* boxes, int count, int width, int height, S
             columns = mean_along(box.s, box.width, width, stencil.columns);
             rows = mean_along(box.t, box.height, height, stencil.rows);
         }
-        stencil.face = box.face;
-        stencil.at_rim = box.at_rim;
-        stencil.column = columns.first;
-        stencil.row = rows.first;
         const bool large = box.kind == BoxKind::large;
-        stencil.column_count = static_cast<std::int16_t>(large ? (columns.count + 3) / 4 * 4 : 4);
-        stencil.row_count = static_cast<std::int16_t>(large ? rows.count : 4);
+        const int column_count = large ? (columns.count + 3) / 4 * 4 : 4,
+                  row_count = large ? rows.count : 4;
+        stencil.column_count = static_cast<std::int16_t>(column_count);
+        stencil.row_count = static_cast<std::int16_t>(row_count);
+        stencil.face = box.face;
+        for (const bool mirror : {false, true}) {
+            stencil.column[mirror] = mirrored(mirror, columns.first, column_count, width);
+            stencil.row[mirror] = mirrored(mirror, rows.first, 1, height);
+        }
+        stencil.across_edges = box.at_rim || columns.first < 0 || rows.first < 0 ||
+                               columns.first + column_count > width ||
+                               rows.first + row_count > height;
     }
 }
 
@@ -165,8 +171,8 @@ class FourTexels {
         const Row middle = permuted(row, next_), steps = hn::Sub(middle, row);
         const Row slopes = slope(steps, permuted(steps, next_));
         const Row slope_weights = hn::Mul(weights_by(weights, slopes_[flip]), sign_[flip]);
-        const Row pair = hn::MulAdd(middle, weights_by(weights, values_[flip]),
-                                    hn::Mul(slopes, slope_weights));
+        const Row pair =
+            hn::MulAdd(middle, weights_by(weights, values_[flip]), hn::Mul(slopes, slope_weights));
         store_first(hn::Add(pair, permuted(pair, next_)), out);
     }
 
@@ -239,6 +245,25 @@ class FourTexels {
 
 #endif
 
+// A face of the source, where a move carries it.
+struct MovedFace {
+    const float* texels;
+    std::ptrdiff_t row_size, row_step;
+    int width, shift;
+    bool flip_s, flip_t;
+};
+
+HWY_ATTR MovedFace moved_face(const MovedLevel& level, const Move& move) {
+    const std::ptrdiff_t row_size = 3 * static_cast<std::ptrdiff_t>(level.width);
+    return {level.faces[move.face],
+            row_size,
+            move.flip_t ? -row_size : row_size,
+            level.width,
+            move.quarters * (level.width / 4),
+            move.flip_s,
+            move.flip_t};
+}
+
 // Where a stencil's first row lies, and how far it is to the next; the columns run backwards if
 // flipped. Nowhere, if it reaches over the face's edges.
 struct Place {
@@ -247,22 +272,14 @@ struct Place {
     bool flip;
 };
 
-HWY_ATTR HWY_INLINE Place find(const Stencil& stencil, const MovedLevel& level) {
-    const Move& move = level.moves[stencil.face];
-    const int width = level.width, height = level.height;
-    int column = Move::flipped(move.flip_s, stencil.column, stencil.column_count, width);
-    if (move.quarters != 0) {
-        column += move.quarters * (width / 4);
-        if (column >= width) column -= width;
-    }
-    const int top = Move::flipped(move.flip_t, stencil.row, stencil.row_count, height);
-    if (column < 0 || top < 0 || column + stencil.column_count > width ||
-        top + stencil.row_count > height || stencil.at_rim)
-        return {};
-    const std::ptrdiff_t row_size = 3 * static_cast<std::ptrdiff_t>(width);
-    const int first = move.flip_t ? top + stencil.row_count - 1 : top;
-    return {level.faces[move.face] + first * row_size + 3 * column,
-            move.flip_t ? -row_size : row_size, move.flip_s};
+HWY_ATTR HWY_INLINE Place find(const Stencil& stencil, const MovedFace* faces) {
+    if (stencil.across_edges) return {};
+    const MovedFace& face = faces[stencil.face];
+    int column = stencil.column[face.flip_s] + face.shift;
+    if (column >= face.width) column -= face.width;
+    if (column + stencil.column_count > face.width) return {};
+    return {face.texels + stencil.row[face.flip_t] * face.row_size + 3 * column, face.row_step,
+            face.flip_s};
 }
 
 HWY_ATTR HWY_INLINE void weigh_small(const FourTexels& four, const Stencil& stencil,
@@ -300,6 +317,9 @@ HWY_ATTR HWY_INLINE void interpolate(const FourTexels& four, const Stencil& sten
 
 HWY_ATTR int Weigh(const Stencil* stencils, int count, bool reversed, const MovedLevel& level,
                    float* out, int* across) {
+    MovedFace faces[kMostFaces];
+    for (int face = 0; face < kMostFaces; ++face)
+        faces[face] = moved_face(level, level.moves[face]);
     const FourTexels four;
     int across_count = 0;
     for (int k = 0; k < count; ++k, out += 3) {
@@ -309,7 +329,7 @@ HWY_ATTR int Weigh(const Stencil* stencils, int count, bool reversed, const Move
             store_rgbx(Rgbx{}, out);
             continue;
         }
-        const Place place = find(stencil, level);
+        const Place place = find(stencil, faces);
         if (place.texels == nullptr)
             across[across_count++] = i;
         else if (stencil.kind == BoxKind::smooth)
