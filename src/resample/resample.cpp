@@ -48,7 +48,7 @@ constexpr double kMostCellsPerSourceTexel = 4;
 // A texel on the rim is cut so that the rim's course through it is seen.
 constexpr int kRimCells = 16;
 
-constexpr int kBlock = 64;  // texels or cells that are worked out together, in vector code
+constexpr int kBlock = 128;  // texels or cells that are worked out together, in vector code
 
 // Texels of the target, or cells of one, as the source sees them: where their centres lie on the
 // sphere, and their two edges as differences of direction.
