@@ -35,16 +35,6 @@ struct ResampleOptions {
 [[nodiscard]] EnvironmentMap resample(const EnvironmentMap& source, Projection projection, int size,
                                       const Axes& axes, const ResampleOptions& options = {});
 
-/// All that decides where a map's texels lie; `size` as in make_environment_map().
-struct MapShape {
-    Projection projection = Projection::equirect;
-    int size = 0;
-    Axes axes;
-
-    bool operator==(const MapShape&) const = default;
-};
-[[nodiscard]] MapShape shape_of(const EnvironmentMap& map);
-
 /// resample() for many maps of one shape: what does not depend on pixels is worked out once. Gives
 /// the same bits. Copies share it; may be used from many threads at once.
 ///

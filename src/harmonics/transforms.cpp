@@ -59,10 +59,6 @@ EnvironmentMap empty_map(const MapShape& shape) {
 
 }  // namespace
 
-MapShape shape_of(const EnvironmentMap& map) {
-    return {map.projection, map.width(), map.axes};
-}
-
 AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
                            int band_count, std::span<const double> power)
     : shape_(shape), band_count_(band_count) {

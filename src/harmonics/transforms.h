@@ -13,16 +13,6 @@
 
 namespace mirrorball::detail {
 
-/// What a map is like, apart from its light.
-struct MapShape {
-    Projection projection = Projection::equirect;
-    int size = 0;  ///< as in make_environment_map()
-    Axes axes;
-
-    bool operator==(const MapShape&) const = default;
-};
-[[nodiscard]] MapShape shape_of(const EnvironmentMap& map);
-
 /// Sums a map's texels, as points at their centres times their exact solid angles, into
 /// coefficients about the world's +Y.
 ///
