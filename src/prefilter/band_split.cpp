@@ -6,9 +6,9 @@
 #include <mirrorball/vector.h>
 #include <mirrorball/zonal.h>
 
-#include "prefilter/legendre.h"
 #include "prefilter/lobe_kernel.h"
 #include "prefilter/zonal_quadrature.h"
+#include "prefilter/zonal_series.h"
 
 namespace mirrorball::detail {
 namespace {

@@ -33,20 +33,23 @@ struct NearTexels {
 
 HWY_BEFORE_NAMESPACE();
 namespace mirrorball::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<float>;
 using Vector = hn::Vec<Tag>;
+using BitTag = hn::RebindToUnsigned<Tag>;
+using Bits = hn::Vec<BitTag>;
 
 // A part's table as vectors want it.
 struct Reader {
     const float* entries;
     Vector offset, scale;
-    hn::Vec<hn::RebindToUnsigned<Tag>> first, last, mask;
+    Bits first, last, mask;
     int shift;
 
     explicit Reader(const NearPart& part) {
-        const hn::RebindToUnsigned<Tag> bits;
+        const BitTag bits;
         entries = part.entries.data();
         offset = hn::Set(Tag(), part.offset);
         scale = hn::Set(Tag(), 1.0f / static_cast<float>(1u << part.shift));
@@ -56,11 +59,20 @@ struct Reader {
         shift = part.shift;
     }
 
-    HWY_INLINE Vector operator()(Vector chord2) const {
+    // How far behind the first entry each squared chord is, in bits.
+    HWY_INLINE Bits Place(Vector chord2) const {
+        return hn::Sub(hn::BitCast(BitTag(), hn::Add(chord2, offset)), first);
+    }
+
+    // Is any of them in the table?
+    HWY_INLINE bool Touches(Bits place) const {
+        const auto within = hn::Lt(hn::ShiftRightSame(place, shift), last);
+        return !hn::AllFalse(BitTag(), within);
+    }
+
+    HWY_INLINE Vector At(Bits place) const {
         const Tag tag;
         const hn::RebindToSigned<Tag> index_tag;
-        const hn::RebindToUnsigned<Tag> bits;
-        const auto place = hn::Sub(hn::BitCast(bits, hn::Add(chord2, offset)), first);
         const auto index = hn::BitCast(index_tag, hn::Min(hn::ShiftRightSame(place, shift), last));
         const Vector between =
             hn::Mul(hn::ConvertTo(tag, hn::BitCast(index_tag, hn::And(place, mask))), scale);
@@ -84,7 +96,9 @@ void AddLights(const NearPart& part, const NearLights& lights, std::size_t light
             const Vector dx = hn::Sub(x, hn::Set(tag, lights.x[j])),
                          dy = hn::Sub(y, hn::Set(tag, lights.y[j])),
                          dz = hn::Sub(z, hn::Set(tag, lights.z[j]));
-            const Vector k = near(hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
+            const Bits place = near.Place(hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
+            if (!near.Touches(place)) continue;
+            const Vector k = near.At(place);
             r = hn::MulAdd(k, hn::Set(tag, lights.r[j]), r);
             g = hn::MulAdd(k, hn::Set(tag, lights.g[j]), g);
             b = hn::MulAdd(k, hn::Set(tag, lights.b[j]), b);
@@ -97,6 +111,7 @@ void AddLights(const NearPart& part, const NearLights& lights, std::size_t light
     }
 }
 
+}  // namespace
 }  // namespace mirrorball::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -172,6 +187,19 @@ struct NearField::Walk {
         return distance - spread <= part.farthest && distance + spread >= part.nearest;
     }
 };
+
+// Half way between the first texel and the last, which is the middle of a rectangle of them.
+NearField::Ball NearField::ball_of(const NearTile& tile, std::size_t start, std::size_t count) {
+    const std::size_t end = start + count, last = end - 1;
+    const Vec3f centre((tile.x[start] + tile.x[last]) / 2, (tile.y[start] + tile.y[last]) / 2,
+                       (tile.z[start] + tile.z[last]) / 2);
+    float radius2 = 0;
+    for (std::size_t i = start; i < end; ++i) {
+        const float dx = tile.x[i] - centre.x, dy = tile.y[i] - centre.y, dz = tile.z[i] - centre.z;
+        radius2 = std::max(radius2, dx * dx + (dy * dy + dz * dz));
+    }
+    return {centre, std::sqrt(radius2)};
+}
 
 NearField::NearField(std::span<const Light> lights) {
     for (const std::uint32_t i : morton_order(lights)) {
@@ -249,13 +277,10 @@ void NearField::visit(Walk& walk, std::size_t level, std::size_t index) const {
 void NearField::add(const NearKernel& near, const NearTile& tile) const {
     if (levels_.empty() || near.parts().empty() || tile.x.empty()) return;
     const std::size_t count = tile.x.size();
-    const auto texel = [&](std::size_t i) { return Ball{{tile.x[i], tile.y[i], tile.z[i]}, 0}; };
     // whole vectors work on the tile itself, what is left over on a copy that is filled up
     const std::size_t whole = count / kMostAtOnce * kMostAtOnce, rest = count - whole;
     const auto add_to = [&](std::size_t start, std::size_t texel_count, const NearTexels& texels) {
-        Walk walk{near,
-                  enclosing<Ball>(texel_count, [&](std::size_t i) { return texel(start + i); }),
-                  texels};
+        Walk walk{near, ball_of(tile, start, texel_count), texels};
         visit(walk, levels_.size() - 1, 0);
     };
     float* const weight = tile.weight.empty() ? nullptr : tile.weight.data();

@@ -16,7 +16,8 @@ struct Light {
     float solid_angle;
 };
 
-/// Directions of neighbouring texels, and the sums that belong to them: one array per component.
+/// Directions of neighbouring texels, best a small rectangle row by row, and the sums that belong
+/// to them: one array per component.
 struct NearTile {
     std::span<const float> x, y, z;
     std::span<float> r, g, b;
@@ -24,13 +25,14 @@ struct NearTile {
 };
 
 /// Lights in cells of neighbours, cells in cells, so that a tile passes over all that do not reach
-/// it. 44 bytes a light.
+/// it. 30 bytes a light.
 class NearField {
   public:
     explicit NearField(std::span<const Light> lights);
 
     /// r, g, b += sum over lights of near(|d - w|) power. The order of additions depends on the
-    /// lights and the tile alone. About 1 ns per texel and light that its tile is in reach of.
+    /// lights and the tile alone. About 0.7 ns per texel and light that its tile
+    /// is in reach of, with AVX-512, and 0.15 us per tile.
     /// \pre all spans of a tile have one size
     void add(const NearKernel& near, const NearTile& tile) const;
 
@@ -45,6 +47,7 @@ class NearField {
     };
     struct Walk;
 
+    static Ball ball_of(const NearTile& tile, std::size_t start, std::size_t count);
     void visit(Walk& walk, std::size_t level, std::size_t index) const;
     [[nodiscard]] bool reached(const NearKernel& near, const Ball& ball, std::size_t level,
                                std::size_t index) const;

@@ -7,9 +7,9 @@
 #include <mirrorball/vector.h>
 
 #include "prefilter/gauss_legendre.h"
-#include "prefilter/legendre.h"
 #include "prefilter/lobe_kernel.h"
 #include "prefilter/zonal_quadrature.h"
+#include "prefilter/zonal_series.h"
 
 namespace mirrorball {
 namespace detail {

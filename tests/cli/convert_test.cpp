@@ -48,6 +48,22 @@ TEST_F(Convert, NothingChangedIsTheSameBytes) {
     EXPECT_EQ(run({"compare", file("a.exr"), file("b.exr"), "--tolerance", "0"}).code, 0);
 }
 
+TEST_F(Convert, LobesComeInListsAndFromTables) {
+    must({"sky", "sunset", "-o", file("sky.hdr"), "--size", "32"});
+    write_contents(folder_ / "felt.txt", "# degrees weight\n0 2\n45 1\n80 0\n");
+    must({"prefilter", file("sky.hdr"), "-o", file("a.ktx2"), "--size", "8", "--lobe",
+          "ggx:0.25,0.5,table:" + file("felt.txt") + ",charlie:1"});
+    const auto levels = json({"info", file("a.ktx2")})["levels"];
+    const char* const expected[] = {"ggx:0.25", "ggx:0.5", "table:felt.txt", "charlie:1"};
+    for (int level = 0; level < 4; ++level) EXPECT_EQ(levels[level]["lobe"], expected[level]);
+    // known by name, a table goes from file to file without its own
+    std::filesystem::remove(folder_ / "felt.txt");
+    must({"convert", file("a.ktx2"), "-o", file("b.dds")});
+    must({"prefilter", file("sky.hdr"), "-o", file("c.ktx2"), "--size", "32", "--lobe", "charlie",
+          "--levels", "3"});
+    EXPECT_EQ(json({"info", file("c.ktx2")})["levels"][0]["lobe"], "charlie:0.01");
+}
+
 TEST_F(Convert, AnOutputMayBeTheInput) {
     must({"sky", "sunset", "-o", file("a.hdr"), "--size", "64"});
     must({"convert", file("a.hdr"), "-o", file("a.hdr"), "--rotate", "90,0,0"});

@@ -75,6 +75,13 @@ TEST_F(Usage, OptionsThatMakeNoSense) {
     expect_refused({"convert", sky_, sky_, "-o", out_}, 2, "unexpected argument");
     expect_refused({"prefilter", sky_, "-o", out_, "--lobe", "ggx:1.5"}, 2, "ggx");
     expect_refused({"prefilter", sky_, "-o", out_, "--lobe", "shiny"}, 2, "shiny");
+    expect_refused({"prefilter", sky_, "-o", out_, "--lobe", "0.5,ggx:0.5"}, 2, "no lobe \"0.5\"");
+    expect_refused({"prefilter", sky_, "-o", out_, "--lobe", "ggx:0.5,2"}, 2, "from 0 to 1");
+    expect_refused({"prefilter", sky_, "-o", out_, "--lobe", "charlie:0"}, 2, "from 0.01 to 1");
+    expect_refused({"prefilter", sky_, "-o", out_, "--lobe", "charlie", "--mapping", "playcanvas"},
+                   2, "phong");
+    const std::string missing = "table:" + (folder_ / "missing.txt").string();
+    expect_refused({"prefilter", sky_, "-o", out_, "--lobe", missing}, 3, "missing.txt");
     expect_refused({"prefilter", sky_, "-o", (folder_ / "x.hdr").string(), "--lobe", "ggx"}, 2,
                    "levels");
     expect_refused(

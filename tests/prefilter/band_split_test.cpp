@@ -8,9 +8,9 @@
 #include <mirrorball/vector.h>
 #include <mirrorball/zonal.h>
 
-#include "prefilter/legendre.h"
 #include "prefilter/lobe_kernel.h"
 #include "prefilter/zonal_quadrature.h"
+#include "prefilter/zonal_series.h"
 
 namespace mirrorball::detail {
 namespace {
@@ -29,7 +29,7 @@ double rms(const Lobe& lobe) {
 }
 
 Errors errors(const Lobe& lobe, const BandSplit& split) {
-    constexpr int count = 20000;
+    constexpr int count = 6000;
     std::vector<double> chords2, x, series;
     for (int i = 0; i < count; ++i) {
         const double u = (i + 0.37) / count, angle = kPi * u * u * u;

@@ -71,7 +71,7 @@ void expect_brute_force(const NearKernel& near, const std::vector<Light>& lights
             largest = std::max(largest, std::abs(sums[c]));
         }
     }
-    // float sums of up to 3000 terms of both signs; a step of the table lost or won at its rim
+    // float sums of up to 2000 terms of both signs; a step of the table lost or won at its rim
     EXPECT_LE(worst, 2e-5 * largest) << what;
     EXPECT_GT(largest, 0) << what;
 }
@@ -82,11 +82,11 @@ TEST(NearField, AgreesWithBruteForce) {
         // a tile beside the lights or, for rings at the horizon, at right angles to them
         const Vec3f here(0.6f, -0.64f, 0.48f), across(0.8f, 0.48f, -0.36f);
         const Vec3f there = near(0) != 0 ? here : across;
-        for (const std::size_t light_count : {1, 7, 9, 3000})
+        for (const std::size_t light_count : {1, 7, 9, 800})
             for (const std::size_t texel_count : {1, 63, 64, 100})
                 expect_brute_force(near, lights(directions(light_count, 5, here, 0.01f)),
                                    directions(texel_count, 6, there, 0.01f), text);
-        expect_brute_force(near, lights(directions(3000, 1)), directions(500, 2), text);
+        expect_brute_force(near, lights(directions(2000, 1)), directions(500, 2), text);
     }
 }
 

@@ -6,18 +6,19 @@
 // where narrow lobes are, P_l changes by l^2 x, and 1 - x would keep too few of x's digits. Nodes
 // lie in the vector's lanes, four vectors at a time, so that one's latency hides behind the
 // others'.
-#include "prefilter/legendre.h"
+#include "prefilter/zonal_series.h"
 
 #include <algorithm>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "prefilter/legendre.cpp"
+#define HWY_TARGET_INCLUDE "prefilter/zonal_series.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace mirrorball::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<double>;
@@ -110,6 +111,7 @@ void Series(const double* x, const double* a, const double* b, const double* coe
     }
 }
 
+}  // namespace
 }  // namespace mirrorball::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
