@@ -16,9 +16,9 @@
 #include "harmonics/transforms.h"
 #include "prefilter/band_split.h"
 #include "prefilter/error_estimate.h"
-#include "prefilter/legendre.h"
 #include "prefilter/near_pass.h"
 #include "prefilter/source_light.h"
+#include "prefilter/zonal_series.h"
 
 namespace mirrorball {
 namespace {
