@@ -22,16 +22,97 @@ namespace HWY_NAMESPACE {
 using Texel = hn::FixedTag<float, 4>;
 using TexelVec = hn::Vec<Texel>;
 
-// Eight values `step` texels apart.
+/// Sums of eight texels in a row by eight weights. Where vectors hold several texels, the weights
+/// are spread over their channels: a quarter of the loads.
+class TapReader {
+    using Wide = hn::CappedTag<float, 16>;
+    using Weights = hn::CappedTag<float, 8>;
+
+  public:
+#if HWY_TARGET == HWY_AVX3
+    // not left to the compiler, which would forget what processor this is for
+    HWY_INLINE TapReader()
+        : low_(indices(0, 1)),
+          high_(indices(4, 1)),
+          low_reversed_(indices(7, -1)),
+          high_reversed_(indices(3, -1)) {}
+#else
+    HWY_INLINE TapReader() {}
+#endif
+
+    HWY_INLINE TexelVec operator()(const float* HWY_RESTRICT values,
+                                   const float* HWY_RESTRICT weights) const {
+#if HWY_TARGET == HWY_AVX3
+        const Wide d;
+        const auto w = hn::ZeroExtendVector(d, hn::LoadU(Weights(), weights));
+        const auto low = hn::Mul(hn::LoadU(d, values), hn::TableLookupLanes(w, low_));
+        const auto sum =
+            hn::MulAdd(hn::LoadU(d, values + 16), hn::TableLookupLanes(w, high_), low);
+        const hn::Half<Wide> half;
+        const auto folded = hn::Add(hn::LowerHalf(half, sum), hn::UpperHalf(half, sum));
+        const hn::Half<hn::Half<Wide>> quarter;
+        return hn::Add(hn::LowerHalf(quarter, folded), hn::UpperHalf(quarter, folded));
+#else
+        return sum_of<1>(values, weights);
+#endif
+    }
+
+    /// The last texel has the first weight.
+    HWY_INLINE TexelVec reversed(const float* HWY_RESTRICT values,
+                                 const float* HWY_RESTRICT weights) const {
+#if HWY_TARGET == HWY_AVX3
+        const Wide d;
+        const auto w = hn::ZeroExtendVector(d, hn::LoadU(Weights(), weights));
+        const auto low = hn::Mul(hn::LoadU(d, values), hn::TableLookupLanes(w, low_reversed_));
+        const auto sum = hn::MulAdd(hn::LoadU(d, values + 16),
+                                    hn::TableLookupLanes(w, high_reversed_), low);
+        const hn::Half<Wide> half;
+        const auto folded = hn::Add(hn::LowerHalf(half, sum), hn::UpperHalf(half, sum));
+        const hn::Half<hn::Half<Wide>> quarter;
+        return hn::Add(hn::LowerHalf(quarter, folded), hn::UpperHalf(quarter, folded));
+#else
+        return sum_of<-1>(values + 4 * (kTapCount - 1), weights);
+#endif
+    }
+
+  private:
+#if HWY_TARGET == HWY_AVX3
+    using Indices = decltype(hn::SetTableIndices(Wide(), static_cast<const std::int32_t*>(nullptr)));
+
+    static HWY_INLINE Indices indices(int first, int step) {
+        HWY_ALIGN std::int32_t lanes[16];
+        for (int i = 0; i < 16; ++i) lanes[i] = first + step * (i / 4);
+        return hn::SetTableIndices(Wide(), lanes);
+    }
+    Indices low_, high_, low_reversed_, high_reversed_;
+#else
+    template <int kStep>
+    static HWY_INLINE TexelVec sum_of(const float* HWY_RESTRICT values,
+                                      const float* HWY_RESTRICT weights) {
+        const Texel d;
+        TexelVec a = hn::Mul(hn::Load(d, values), hn::Set(d, weights[0]));
+        TexelVec b = hn::Mul(hn::Load(d, values + 4 * kStep), hn::Set(d, weights[1]));
+        HWY_UNROLL(6)
+        for (int i = 2; i < kTapCount; i += 2) {
+            a = hn::MulAdd(hn::Load(d, values + 4 * i * kStep), hn::Set(d, weights[i]), a);
+            b = hn::MulAdd(hn::Load(d, values + 4 * (i + 1) * kStep), hn::Set(d, weights[i + 1]),
+                           b);
+        }
+        return hn::Add(a, b);
+    }
+#endif
+};
+
+// Sum of eight texels, `step` values apart.
 HWY_INLINE TexelVec weighted(const float* HWY_RESTRICT values, std::ptrdiff_t step,
                              const float* HWY_RESTRICT weights) {
     const Texel d;
     TexelVec a = hn::Mul(hn::Load(d, values), hn::Set(d, weights[0]));
-    TexelVec b = hn::Mul(hn::Load(d, values + 4 * step), hn::Set(d, weights[1]));
+    TexelVec b = hn::Mul(hn::Load(d, values + step), hn::Set(d, weights[1]));
     HWY_UNROLL(6)
     for (int i = 2; i < kTapCount; i += 2) {
-        a = hn::MulAdd(hn::Load(d, values + 4 * i * step), hn::Set(d, weights[i]), a);
-        b = hn::MulAdd(hn::Load(d, values + 4 * (i + 1) * step), hn::Set(d, weights[i + 1]), b);
+        a = hn::MulAdd(hn::Load(d, values + i * step), hn::Set(d, weights[i]), a);
+        b = hn::MulAdd(hn::Load(d, values + (i + 1) * step), hn::Set(d, weights[i + 1]), b);
     }
     return hn::Add(a, b);
 }
@@ -41,8 +122,44 @@ HWY_INLINE void add_weighted(TexelVec value, float* HWY_RESTRICT values, std::pt
     const Texel d;
     HWY_UNROLL(8)
     for (int i = 0; i < kTapCount; ++i) {
-        float* const to = values + 4 * i * step;
+        float* const to = values + i * step;
         hn::Store(hn::MulAdd(value, hn::Set(d, weights[i]), hn::Load(d, to)), d, to);
+    }
+}
+
+// Rings in lanes, as planes, to a texel on each of as many rows, and back.
+HWY_INLINE void store_lanes(const float* r, const float* g, const float* b, float* to,
+                            std::ptrdiff_t row) {
+    const Texel d;
+    const hn::FixedTag<double, 2> pairs;
+    for (std::size_t i = 0; i < hn::Lanes(Lanes()); i += 4) {
+        const auto r4 = hn::Load(d, r + i), g4 = hn::Load(d, g + i), b4 = hn::Load(d, b + i);
+        const auto rg0 = hn::BitCast(pairs, hn::InterleaveLower(d, r4, g4));
+        const auto rg2 = hn::BitCast(pairs, hn::InterleaveUpper(d, r4, g4));
+        const auto bx0 = hn::BitCast(pairs, hn::InterleaveLower(d, b4, hn::Zero(d)));
+        const auto bx2 = hn::BitCast(pairs, hn::InterleaveUpper(d, b4, hn::Zero(d)));
+        float* const at = to + static_cast<std::ptrdiff_t>(i) * row;
+        hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, rg0, bx0)), d, at);
+        hn::Store(hn::BitCast(d, hn::InterleaveUpper(pairs, rg0, bx0)), d, at + row);
+        hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, rg2, bx2)), d, at + 2 * row);
+        hn::Store(hn::BitCast(d, hn::InterleaveUpper(pairs, rg2, bx2)), d, at + 3 * row);
+    }
+}
+
+HWY_INLINE void load_lanes(const float* from, std::ptrdiff_t row, float* r, float* g, float* b) {
+    const Texel d;
+    const hn::FixedTag<double, 2> pairs;
+    for (std::size_t i = 0; i < hn::Lanes(Lanes()); i += 4) {
+        const float* const at = from + static_cast<std::ptrdiff_t>(i) * row;
+        const auto t0 = hn::Load(d, at), t1 = hn::Load(d, at + row);
+        const auto t2 = hn::Load(d, at + 2 * row), t3 = hn::Load(d, at + 3 * row);
+        const auto rg01 = hn::BitCast(pairs, hn::InterleaveLower(d, t0, t1));
+        const auto rg23 = hn::BitCast(pairs, hn::InterleaveLower(d, t2, t3));
+        const auto bx01 = hn::BitCast(pairs, hn::InterleaveUpper(d, t0, t1));
+        const auto bx23 = hn::BitCast(pairs, hn::InterleaveUpper(d, t2, t3));
+        hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, rg01, rg23)), d, r + i);
+        hn::Store(hn::BitCast(d, hn::InterleaveUpper(pairs, rg01, rg23)), d, g + i);
+        hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, bx01, bx23)), d, b + i);
     }
 }
 
@@ -71,8 +188,9 @@ void make_side(const Block& block, int size, const TapList& rings, const float* 
     for (int v = block.v0; v < block.v1; ++v) {
         for (int u = block.u0; u < block.u1; ++u) {
             const std::size_t at = mirrored(u, v, size, half);
-            const float* const from = columns + (u * stride + rings.first[at]) * 4;
-            const TexelVec value = weighted(from, 1, rings.weights.data() + at * kTapCount);
+            const float* const from = columns + rings.first[at] * stride + 4 * u;
+            const TexelVec value = weighted(from, static_cast<std::ptrdiff_t>(stride),
+                                            rings.weights.data() + at * kTapCount);
             store_rgb(clamped(value, range), to + u * along_u + v * along_v);
         }
     }
@@ -91,49 +209,51 @@ void spread_side(const Block& block, int size, const TapList& rings, const float
             const float solid_angle = row[std::max(u, size - 1 - u) - size / 2];
             const TexelVec value = hn::Mul(hn::LoadU(d, from + u * along_u + v * along_v),
                                            hn::Set(d, solid_angle));
-            add_weighted(value, columns + (u * stride + rings.first[at]) * 4, 1,
+            add_weighted(value, columns + rings.first[at] * stride + 4 * u,
+                         static_cast<std::ptrdiff_t>(stride),
                          rings.weights.data() + at * kTapCount);
         }
     }
 }
 
 // Interpolates rings in the lanes of a group along psi, to a column of texels on each side.
-// `north` and `south` are the group's rings on column 0 of the sides.
+// `north` and `south` are the group's first ring and its mate, on column 0 of the sides.
 void scatter_sides(const float* const* planes, int column_count, int size, const TapList& taps,
-                   float* north, float* south, std::size_t stride) {
+                   float* north, float* south, std::ptrdiff_t stride) {
     const Lanes d;
-    const Vec zero = hn::Zero(d);
+    HWY_ALIGN float lanes[6][16];
     for (int side = 0; side < 4; ++side) {
         for (int u = 0; u < size; ++u) {
             const float* const w = taps.weights.data() + static_cast<std::size_t>(u) * kTapCount;
             const int first = taps.first[u] + side * (column_count / 4) + column_count;
-            Vec sums[6];
             for (int c = 0; c < 3; ++c) {
-                Complexes sum{zero, zero};
+                Complexes sum{hn::Zero(d), hn::Zero(d)};
                 for (int i = 0; i < kTapCount; ++i)
                     sum = plus_scaled(sum, w[i], load(planes[c], (first + i) % column_count));
-                sums[c] = sum.re, sums[3 + c] = hn::Reverse(d, sum.im);
+                hn::Store(sum.re, d, lanes[c]);
+                hn::Store(sum.im, d, lanes[3 + c]);
             }
-            const std::size_t at = (static_cast<std::size_t>(side) * size + u) * stride * 4;
-            hn::StoreInterleaved4(sums[0], sums[1], sums[2], zero, d, north + at);
-            hn::StoreInterleaved4(sums[3], sums[4], sums[5], zero, d, south + at);
+            const std::ptrdiff_t at = 4 * (std::ptrdiff_t{side} * size + u);
+            store_lanes(lanes[0], lanes[1], lanes[2], north + at, stride);
+            store_lanes(lanes[3], lanes[4], lanes[5], south + at, -stride);
         }
     }
 }
 
+// Adds to planes.
 void gather_sides(float* const* planes, int column_count, int size, const TapList& taps,
-                  const float* north, const float* south, std::size_t stride) {
+                  const float* north, const float* south, std::ptrdiff_t stride) {
     const Lanes d;
+    HWY_ALIGN float lanes[6][16];
     for (int u = 0; u < size; ++u) {
         const float* const w = taps.weights.data() + static_cast<std::size_t>(u) * kTapCount;
         for (int side = 0; side < 4; ++side) {
-            const std::size_t at = (static_cast<std::size_t>(side) * size + u) * stride * 4;
+            const std::ptrdiff_t at = 4 * (std::ptrdiff_t{side} * size + u);
             const int first = taps.first[u] + side * (column_count / 4) + column_count;
-            Vec re[3], im[3], unused;
-            hn::LoadInterleaved4(d, north + at, re[0], re[1], re[2], unused);
-            hn::LoadInterleaved4(d, south + at, im[0], im[1], im[2], unused);
+            load_lanes(north + at, stride, lanes[0], lanes[1], lanes[2]);
+            load_lanes(south + at, -stride, lanes[3], lanes[4], lanes[5]);
             for (int c = 0; c < 3; ++c) {
-                const Complexes value{re[c], hn::Reverse(d, im[c])};
+                const Complexes value{hn::Load(d, lanes[c]), hn::Load(d, lanes[3 + c])};
                 for (int i = 0; i < kTapCount; ++i) {
                     const int k = (first + i) % column_count;
                     store(plus_scaled(load(planes[c], k), w[i], value), planes[c], k);
@@ -145,27 +265,27 @@ void gather_sides(float* const* planes, int column_count, int size, const TapLis
 
 // Caps ---------------------------------------------------------------------------------------
 
+// `north` and `south` are the group's first ring on either cap.
 void scatter_caps(const float* const* planes, int column_count, float* north, float* south,
-                  std::size_t stride) {
-    const Lanes d;
-    const Vec zero = hn::Zero(d);
+                  std::ptrdiff_t stride) {
+    const std::size_t n = hn::Lanes(Lanes());
     for (int k = 0; k < column_count; ++k) {
-        const Complexes r = load(planes[0], k), g = load(planes[1], k), b = load(planes[2], k);
-        hn::StoreInterleaved4(r.re, g.re, b.re, zero, d, north + k * stride * 4);
-        hn::StoreInterleaved4(r.im, g.im, b.im, zero, d, south + k * stride * 4);
+        const std::size_t at = 2 * n * k;
+        store_lanes(planes[0] + at, planes[1] + at, planes[2] + at, north + 4 * k, stride);
+        store_lanes(planes[0] + at + n, planes[1] + at + n, planes[2] + at + n, south + 4 * k,
+                    stride);
     }
 }
 
-// Adds to planes.
+// Sets the planes.
 void gather_caps(float* const* planes, int column_count, const float* north, const float* south,
-                 std::size_t stride) {
-    const Lanes d;
+                 std::ptrdiff_t stride) {
+    const std::size_t n = hn::Lanes(Lanes());
     for (int k = 0; k < column_count; ++k) {
-        Vec re[3], im[3], unused;
-        hn::LoadInterleaved4(d, north + k * stride * 4, re[0], re[1], re[2], unused);
-        hn::LoadInterleaved4(d, south + k * stride * 4, im[0], im[1], im[2], unused);
-        for (int c = 0; c < 3; ++c)
-            store(load(planes[c], k) + Complexes{re[c], im[c]}, planes[c], k);
+        const std::size_t at = 2 * n * k;
+        load_lanes(north + 4 * k, stride, planes[0] + at, planes[1] + at, planes[2] + at);
+        load_lanes(south + 4 * k, stride, planes[0] + at + n, planes[1] + at + n,
+                   planes[2] + at + n);
     }
 }
 
@@ -176,14 +296,16 @@ void make_cap(const Quadrant& q, int a0, int a1, const float* cap, const Range& 
               float* line, float* middle, std::ptrdiff_t along, std::ptrdiff_t across,
               std::ptrdiff_t to_negative, bool whole_middle) {
     const Texel d;
+    const TapReader along_line;
     const std::size_t width = 2 * q.reach + 1;
     for (int c = -q.reach; c <= q.reach; ++c) {
         const int column = (q.axis_column + c + q.column_count) % q.column_count;
-        const float* const from = cap + column * q.stride * 4;
+        const float* const from = cap + 4 * column;
         for (int a = a0; a < a1; ++a) {
             const std::size_t at = static_cast<std::size_t>(a) * (q.reach + 1) + std::abs(c);
-            const TexelVec value =
-                weighted(from + q.rings->first[at] * 4, 1, q.rings->weights.data() + at * kTapCount);
+            const TexelVec value = weighted(from + q.rings->first[at] * q.stride,
+                                            static_cast<std::ptrdiff_t>(q.stride),
+                                            q.rings->weights.data() + at * kTapCount);
             hn::Store(value, d, line + ((a - a0) * width + (c + q.reach)) * 4);
         }
     }
@@ -195,10 +317,10 @@ void make_cap(const Quadrant& q, int a0, int a1, const float* cap, const Range& 
             const float* const w = q.columns->weights.data() + at * kTapCount;
             const std::ptrdiff_t first = q.columns->first[at];
             if (a == 0 && q.size % 2 == 1 && !whole_middle) continue;
-            store_rgb(clamped(weighted(centre + first * 4, 1, w), range), row + b * across);
+            store_rgb(clamped(along_line(centre + first * 4, w), range), row + b * across);
             // the other side of the axis; its diagonal is the next quadrant's, its b = 0 this one
             if (b == a || (b == 0 && q.size % 2 == 1)) continue;
-            store_rgb(clamped(weighted(centre - first * 4, -1, w), range),
+            store_rgb(clamped(along_line.reversed(centre - (first + kTapCount - 1) * 4, w), range),
                       row + to_negative - b * across);
         }
     }
@@ -220,20 +342,21 @@ void spread_cap(const Quadrant& q, int a0, int a1, const float* solid_angles, co
             const TexelVec solid_angle = hn::Set(d, solid_angles[at]);
             if (a == 0 && q.size % 2 == 1 && !whole_middle) continue;
             add_weighted(hn::Mul(hn::LoadU(d, row + b * across), solid_angle), centre + first * 4,
-                         1, w);
+                         4, w);
             if (b == a || (b == 0 && q.size % 2 == 1)) continue;
             add_weighted(
                 hn::Mul(hn::LoadU(d, row + to_negative - b * across), solid_angle),
-                centre - first * 4, -1, w);
+                centre - first * 4, -4, w);
         }
     }
     for (int c = -q.reach; c <= q.reach; ++c) {
         const int column = (q.axis_column + c + q.column_count) % q.column_count;
-        float* const to = cap + column * q.stride * 4;
+        float* const to = cap + 4 * column;
         for (int a = a0; a < a1; ++a) {
             const std::size_t at = static_cast<std::size_t>(a) * (q.reach + 1) + std::abs(c);
             const TexelVec value = hn::Load(d, line + ((a - a0) * width + (c + q.reach)) * 4);
-            add_weighted(value, to + q.rings->first[at] * 4, 1,
+            add_weighted(value, to + q.rings->first[at] * q.stride,
+                         static_cast<std::ptrdiff_t>(q.stride),
                          q.rings->weights.data() + at * kTapCount);
         }
     }
@@ -265,6 +388,12 @@ Range range_of(const Vec3f& lowest, const Vec3f& highest) {
     Range range{};
     for (int c = 0; c < 3; ++c) range.lowest[c] = lowest[c], range.highest[c] = highest[c];
     return range;
+}
+
+// Values from a ring of `count` texels to the next: not a multiple of a page, or all eight taps
+// would fall on the same lines of a cache.
+std::size_t padded(int count) {
+    return 16 * ((static_cast<std::size_t>(count) + 3) / 4 | 1);
 }
 
 int blocks(int size) {
@@ -323,7 +452,8 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
 
     const int least_side_ring = std::max(0, ring_count_ / 4 - 5);
     first_side_ring_ = least_side_ring / lane_count_ * lane_count_;
-    side_stride_ = static_cast<std::size_t>(ring_count_ - 2 * first_side_ring_);
+    side_ring_count_ = ring_count_ - 2 * first_side_ring_;
+    side_stride_ = padded(4 * size);
     side_columns_ = TapList(size);
     for (int u = 0; u < size; ++u)
         side_columns_.set(u, std::atan(coordinate(u)) * columns_per_radian, along_rings);
@@ -357,7 +487,8 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
     const int last = *std::max_element(cap_rings_.first.begin(), cap_rings_.first.end()) +
                      kTapCount - kBeyondPole;
     cap_group_count_ = std::min(group_count_, (last + lane_count_ - 1) / lane_count_);
-    cap_stride_ = static_cast<std::size_t>(kBeyondPole + cap_group_count_ * lane_count_);
+    cap_ring_count_ = kBeyondPole + cap_group_count_ * lane_count_;
+    cap_stride_ = padded(column_count_);
 
     const auto table = solid_angle_table(Projection::cube, size, size);
     solid_angles_.resize(static_cast<std::size_t>(half_) * half_);
@@ -371,42 +502,49 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
 }
 
 CubeGrid::Buffers CubeGrid::make_buffers() const {
-    return {ScratchArray(scratch_, 4 * side_stride_ * 4 * size_),
-            ScratchArray(scratch_, 2 * cap_stride_ * 4 * column_count_)};
+    return {ScratchArray(scratch_, side_stride_ * side_ring_count_),
+            ScratchArray(scratch_, 2 * cap_stride_ * cap_ring_count_)};
 }
 
 void CubeGrid::scatter_group(int group, const std::array<GroupValues, 3>& planes,
                              Buffers& buffers) const {
     const float* const from[3] = {planes[0].data(), planes[1].data(), planes[2].data()};
-    const std::size_t ring = static_cast<std::size_t>(group) * lane_count_;
+    const int ring = group * lane_count_;
     if (group < cap_group_count_) {
-        float* const north = buffers.caps.data() + (kBeyondPole + ring) * 4;
+        float* const north = buffers.caps.data() + (kBeyondPole + ring) * cap_stride_;
         HWY_DYNAMIC_DISPATCH(scatter_caps)
-        (from, column_count_, north, north + cap_stride_ * 4 * column_count_, cap_stride_);
+        (from, column_count_, north, north + cap_ring_count_ * cap_stride_,
+         static_cast<std::ptrdiff_t>(cap_stride_));
     }
     if (group >= first_group()) {
         float* const rings = buffers.sides.data();
+        const int north = ring - first_side_ring_;
         HWY_DYNAMIC_DISPATCH(scatter_sides)
-        (from, column_count_, size_, side_columns_, rings + (ring - first_side_ring_) * 4,
-         rings + (ring_count_ - ring - lane_count_ - first_side_ring_) * 4, side_stride_);
+        (from, column_count_, size_, side_columns_, rings + north * side_stride_,
+         rings + (side_ring_count_ - 1 - north) * side_stride_,
+         static_cast<std::ptrdiff_t>(side_stride_));
     }
 }
 
 void CubeGrid::gather_group(int group, const Buffers& buffers,
                             std::array<GroupValues, 3>& planes) const {
     float* const to[3] = {planes[0].data(), planes[1].data(), planes[2].data()};
-    for (GroupValues& plane : planes) std::fill(plane.begin(), plane.end(), 0.0f);
-    const std::size_t ring = static_cast<std::size_t>(group) * lane_count_;
+    const int ring = group * lane_count_;
     if (group < cap_group_count_) {
-        const float* const north = buffers.caps.data() + (kBeyondPole + ring) * 4;
+        const float* const north = buffers.caps.data() + (kBeyondPole + ring) * cap_stride_;
         HWY_DYNAMIC_DISPATCH(gather_caps)
-        (to, column_count_, north, north + cap_stride_ * 4 * column_count_, cap_stride_);
+        (to, column_count_, north, north + cap_ring_count_ * cap_stride_,
+         static_cast<std::ptrdiff_t>(cap_stride_));
+    } else {
+        for (GroupValues& plane : planes) std::fill(plane.begin(), plane.end(), 0.0f);
     }
     if (group >= first_group()) {
         const float* const rings = buffers.sides.data();
+        const int north = ring - first_side_ring_;
         HWY_DYNAMIC_DISPATCH(gather_sides)
-        (to, column_count_, size_, side_columns_, rings + (ring - first_side_ring_) * 4,
-         rings + (ring_count_ - ring - lane_count_ - first_side_ring_) * 4, side_stride_);
+        (to, column_count_, size_, side_columns_, rings + north * side_stride_,
+         rings + (side_ring_count_ - 1 - north) * side_stride_,
+         static_cast<std::ptrdiff_t>(side_stride_));
     }
 }
 
@@ -427,14 +565,13 @@ CubeGrid::QuadrantPlacement CubeGrid::place_quadrant(int cap, int quadrant,
 void CubeGrid::make_texels(Buffers& buffers, const CubePlacement& placement, const Vec3f& lowest,
                            const Vec3f& highest, std::vector<Image>& faces) const {
     // rings beyond a pole are those before it, half way round
-    for (int k = 0; k < 2 * column_count_; ++k) {
-        const int cap = k / column_count_, column = k % column_count_;
-        const int opposite = (column + column_count_ / 2) % column_count_;
-        float* const to = buffers.caps.data() + k * cap_stride_ * 4;
-        const float* const from =
-            buffers.caps.data() + (cap * column_count_ + opposite) * cap_stride_ * 4;
-        for (int i = 0; i < kBeyondPole; ++i)
-            std::copy_n(from + (kBeyondPole + i) * 4, 4, to + (kBeyondPole - 1 - i) * 4);
+    const int half_way = column_count_ / 2;
+    for (int i = 0; i < 2 * kBeyondPole; ++i) {
+        float* const cap = buffers.caps.data() + i % 2 * cap_ring_count_ * cap_stride_;
+        const float* const from = cap + (kBeyondPole + i / 2) * cap_stride_;
+        float* const to = cap + (kBeyondPole - 1 - i / 2) * cap_stride_;
+        std::copy_n(from, 4 * half_way, to + 4 * half_way);
+        std::copy_n(from + 4 * half_way, 4 * half_way, to);
     }
     const Range range = range_of(lowest, highest);
     const int per_side = blocks(size_) * blocks(size_);
@@ -449,7 +586,7 @@ void CubeGrid::make_texels(Buffers& buffers, const CubePlacement& placement, con
             const FacePlacement& face = placement[side];
             HWY_DYNAMIC_DISPATCH(make_side)
             (texels, size_, side_rings_,
-             buffers.sides.data() + static_cast<std::size_t>(side) * size_ * side_stride_ * 4,
+             buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_,
              side_stride_, range, faces[face.face].values().data() + face.origin, face.along_u,
              face.along_v);
             return;
@@ -463,7 +600,7 @@ void CubeGrid::make_texels(Buffers& buffers, const CubePlacement& placement, con
                          &cap_columns_, cap_stride_};
         HWY_DYNAMIC_DISPATCH(make_cap)
         (q, a, std::min(a + kLines, half_),
-         buffers.caps.data() + cap * cap_stride_ * 4 * column_count_, range, line.data(),
+         buffers.caps.data() + cap * cap_ring_count_ * cap_stride_, range, line.data(),
          faces[place.face].values().data() + place.middle, place.along, place.across,
          size_ % 2 == 0 ? -place.across : 0, quadrant == 0);
     });
@@ -485,7 +622,7 @@ void CubeGrid::spread_texels(const std::vector<Image>& faces, const CubePlacemen
             (q, a, std::min(a + kLines, half_), solid_angles_.data(),
              faces[place.face].values().data() + place.middle, place.along, place.across,
              size_ % 2 == 0 ? -place.across : 0, quadrant == 0, line.data(),
-             buffers.caps.data() + cap * cap_stride_ * 4 * column_count_);
+             buffers.caps.data() + cap * cap_ring_count_ * cap_stride_);
         }
     };
     // Neighbouring quadrants share columns of the grid, so they take turns.
@@ -498,21 +635,22 @@ void CubeGrid::spread_texels(const std::vector<Image>& faces, const CubePlacemen
         HWY_DYNAMIC_DISPATCH(spread_side)
         ({u, std::min(u + kBlock, size_), 0, size_}, size_, side_rings_, solid_angles_.data(),
          faces[face.face].values().data() + face.origin, face.along_u, face.along_v,
-         buffers.sides.data() + static_cast<std::size_t>(side) * size_ * side_stride_ * 4,
+         buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_,
          side_stride_);
     });
     parallel_for(4, [&](std::int64_t task) {
         const FlushDenormals flush;
         spread_quadrant(static_cast<int>(task) % 2, static_cast<int>(task) / 2 * 2 + 1);
     });
-    for (int k = 0; k < 2 * column_count_; ++k) {
-        const int cap = k / column_count_, column = k % column_count_;
-        const int opposite = (column + column_count_ / 2) % column_count_;
-        const float* const from = buffers.caps.data() + k * cap_stride_ * 4;
-        float* const to =
-            buffers.caps.data() + (cap * column_count_ + opposite) * cap_stride_ * 4;
-        for (int i = 0; i < 4 * kBeyondPole; ++i)
-            to[4 * (kBeyondPole + i / 4) + i % 4] += from[4 * (kBeyondPole - 1 - i / 4) + i % 4];
+    const int half_way = column_count_ / 2;
+    for (int i = 0; i < 2 * kBeyondPole; ++i) {
+        float* const cap = buffers.caps.data() + i % 2 * cap_ring_count_ * cap_stride_;
+        const float* const from = cap + (kBeyondPole - 1 - i / 2) * cap_stride_;
+        float* const to = cap + (kBeyondPole + i / 2) * cap_stride_;
+        for (int k = 0; k < 4 * half_way; ++k) {
+            to[4 * half_way + k] += from[k];
+            to[k] += from[4 * half_way + k];
+        }
     }
 }
 

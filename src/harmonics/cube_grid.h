@@ -8,8 +8,8 @@
 // twice instead of 64 at once. Analysis does the same backwards: it adds where synthesis reads, so
 // that the sum over the grid is the sum over the texels.
 //
-//     sides: [column of texels 0 .. 4n)[ring, those between the caps][4]
-//     caps:  [north, south][grid column][4 rings beyond the pole, rings from the pole on][4]
+//     sides: [ring, those between the caps][column of texels 0 .. 4n][RGBx]
+//     caps:  [north, south][4 rings beyond the pole, rings from the pole on][grid column][RGBx]
 #pragma once
 
 #include <array>
@@ -54,7 +54,7 @@ struct Quadrant {
     int size, half, reach, column_count, axis_column;
     const TapList* rings;
     const TapList* columns;
-    std::size_t stride;
+    std::size_t stride;  // values from a ring to the next
 };
 
 /// Positions and weights, for a grid and a size of face. The same for synthesis and analysis.
@@ -96,7 +96,8 @@ class CubeGrid {
     int size_, half_;            // half_: texels from the middle of a face out
     int ring_count_, column_count_, lane_count_, group_count_;
     int first_side_ring_, cap_group_count_;
-    std::size_t side_stride_, cap_stride_;  // in rings
+    int side_ring_count_, cap_ring_count_;
+    std::size_t side_stride_, cap_stride_;  // values from a ring to the next
     int cap_reach_;                         // grid columns to each side of a quadrant's axis
     TapList side_columns_;                  // [u], grid columns from the side's middle
     TapList side_rings_;                    // [v][u of the left half], from the first side ring

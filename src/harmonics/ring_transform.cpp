@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstring>
 
 #include <mirrorball/vector.h>
@@ -159,6 +160,8 @@ void to_spectra(const FourierPlan& plan, const Columns& columns, const float* we
     for (std::size_t i = 0; i < n; ++i) cosines_of_rings[i] = static_cast<float>(x[i]);
     const Vec even_weight = hn::Mul(hn::LoadU(d, weights), hn::Set(d, 0.5f));
     const Vec odd_weight = hn::Mul(even_weight, hn::Load(d, cosines_of_rings));
+    const std::complex<double> step = std::polar(1.0, columns.first);
+    std::complex<double> turn = 1;  // exp(i m first)
     for (int m = 0; m < order_count; ++m) {
         const std::size_t k = m % length, mate = (length - k) % length;
         const Complexes a = load(z, k), b = load(z, mate);
@@ -168,8 +171,9 @@ void to_spectra(const FourierPlan& plan, const Columns& columns, const float* we
         const Complexes even = north + south, odd = north - south;
         // times exp(-i m first), of the conjugate where columns run the other way; the cosines are
         // the real part of that, the sines the imaginary part's opposite
-        const Vec c = hn::Set(d, static_cast<float>(std::cos(m * columns.first)));
-        const Vec s = hn::Set(d, static_cast<float>(columns.direction * std::sin(m * columns.first)));
+        const Vec c = hn::Set(d, static_cast<float>(turn.real()));
+        const Vec s = hn::Set(d, static_cast<float>(columns.direction * turn.imag()));
+        turn *= step;
         const Vec sign = hn::Set(d, static_cast<float>(-columns.direction));
         const auto cosines = [&](const Complexes& v) HWY_ATTR {
             return hn::MulAdd(v.re, c, hn::Mul(v.im, s));

@@ -12,9 +12,9 @@ namespace {
 // Values of a grid per value that its bands need. Eight taps then interpolate a lobe of GGX's
 // spectrum to 2e-5 of its rms; a spectrum that is cut off while it is high needs more, and few bands
 // can have it for nothing.
-constexpr double kOversampling = 1.5, kMoreOversampling = 2.2;
+constexpr double kOversampling = 1.5, kMoreOversampling = 2.2, kMostOversampling = 3;
 constexpr int kFewBands = 160;
-constexpr double kMostAtEdge = 1e-4;  // of the power, in the last quarter of the bands
+constexpr double kMostAtEdge = 1e-5;  // of the power, in the last quarter of the bands
 
 double oversampling(std::span<const double> power) {
     double all = 0, edge = 0;
@@ -23,7 +23,8 @@ double oversampling(std::span<const double> power) {
         all += here;
         if (4 * l >= 3 * power.size()) edge += here;
     }
-    return power.size() < kFewBands || edge > kMostAtEdge * all ? kMoreOversampling : kOversampling;
+    if (edge > kMostAtEdge * all) return kMostOversampling;
+    return power.size() < kFewBands ? kMoreOversampling : kOversampling;
 }
 
 RingTransform grid_transform(std::shared_ptr<const LegendreTable> table, int band_count,
