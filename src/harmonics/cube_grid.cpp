@@ -22,85 +22,88 @@ namespace HWY_NAMESPACE {
 using Texel = hn::FixedTag<float, 4>;
 using TexelVec = hn::Vec<Texel>;
 
-/// Sums of eight texels in a row by eight weights. Where vectors hold several texels, the weights
-/// are spread over their channels: a quarter of the loads.
-class TapReader {
+/// Eight weights spread over the channels of eight texels in a row, as many of which are in one
+/// vector as fit.
+class RowWeights {
     using Wide = hn::CappedTag<float, 16>;
-    using Weights = hn::CappedTag<float, 8>;
+    using WideVec = hn::Vec<Wide>;
 
   public:
-#if HWY_TARGET == HWY_AVX3
-    // not left to the compiler, which would forget what processor this is for
-    HWY_INLINE TapReader()
-        : low_(indices(0, 1)),
-          high_(indices(4, 1)),
-          low_reversed_(indices(7, -1)),
-          high_reversed_(indices(3, -1)) {}
-#else
-    HWY_INLINE TapReader() {}
-#endif
+    static constexpr int kVectorCount = 32 / hn::MaxLanes(Wide());
 
-    HWY_INLINE TexelVec operator()(const float* HWY_RESTRICT values,
-                                   const float* HWY_RESTRICT weights) const {
-#if HWY_TARGET == HWY_AVX3
-        const Wide d;
-        const auto w = hn::ZeroExtendVector(d, hn::LoadU(Weights(), weights));
-        const auto low = hn::Mul(hn::LoadU(d, values), hn::TableLookupLanes(w, low_));
-        const auto sum =
-            hn::MulAdd(hn::LoadU(d, values + 16), hn::TableLookupLanes(w, high_), low);
-        const hn::Half<Wide> half;
-        const auto folded = hn::Add(hn::LowerHalf(half, sum), hn::UpperHalf(half, sum));
-        const hn::Half<hn::Half<Wide>> quarter;
-        return hn::Add(hn::LowerHalf(quarter, folded), hn::UpperHalf(quarter, folded));
-#else
-        return sum_of<1>(values, weights);
-#endif
+    /// If `reversed`, the last texel has the first weight.
+    HWY_INLINE RowWeights(const float* weights, bool reversed) {
+        const int first = reversed ? kTapCount - 1 : 0, step = reversed ? -1 : 1;
+        for (int i = 0; i < kVectorCount; ++i)
+            weights_[i] = spread(weights, first + step * i * kTapCount / kVectorCount, step);
     }
 
-    /// The last texel has the first weight.
-    HWY_INLINE TexelVec reversed(const float* HWY_RESTRICT values,
-                                 const float* HWY_RESTRICT weights) const {
-#if HWY_TARGET == HWY_AVX3
+    /// Sum over eight rows, by `across`, of the sums along them.
+    HWY_INLINE TexelVec sum(const float* HWY_RESTRICT values, std::ptrdiff_t row,
+                            const float* HWY_RESTRICT across) const {
         const Wide d;
-        const auto w = hn::ZeroExtendVector(d, hn::LoadU(Weights(), weights));
-        const auto low = hn::Mul(hn::LoadU(d, values), hn::TableLookupLanes(w, low_reversed_));
-        const auto sum = hn::MulAdd(hn::LoadU(d, values + 16),
-                                    hn::TableLookupLanes(w, high_reversed_), low);
-        const hn::Half<Wide> half;
-        const auto folded = hn::Add(hn::LowerHalf(half, sum), hn::UpperHalf(half, sum));
-        const hn::Half<hn::Half<Wide>> quarter;
-        return hn::Add(hn::LowerHalf(quarter, folded), hn::UpperHalf(quarter, folded));
-#else
-        return sum_of<-1>(values + 4 * (kTapCount - 1), weights);
-#endif
+        const std::size_t n = hn::Lanes(d);
+        WideVec sums[kVectorCount];
+        for (WideVec& s : sums) s = hn::Zero(d);
+        HWY_UNROLL(8)
+        for (int k = 0; k < kTapCount; ++k) {
+            const WideVec w = hn::Set(d, across[k]);
+            for (int i = 0; i < kVectorCount; ++i)
+                sums[i] = hn::MulAdd(hn::LoadU(d, values + k * row + i * n), w, sums[i]);
+        }
+        WideVec all = hn::Mul(sums[0], weights_[0]);
+        for (int i = 1; i < kVectorCount; ++i) all = hn::MulAdd(sums[i], weights_[i], all);
+        return folded_texels(all);
+    }
+
+    /// The same backwards: adds a texel to eight rows of eight.
+    HWY_INLINE void add(TexelVec texel, float* HWY_RESTRICT values, std::ptrdiff_t row,
+                        const float* HWY_RESTRICT across) const {
+        const Wide d;
+        const std::size_t n = hn::Lanes(d);
+        HWY_ALIGN float rgbx[4];
+        hn::Store(texel, Texel(), rgbx);
+        const WideVec everywhere = hn::LoadDup128(d, rgbx);
+        WideVec shares[kVectorCount];
+        for (int i = 0; i < kVectorCount; ++i) shares[i] = hn::Mul(everywhere, weights_[i]);
+        HWY_UNROLL(8)
+        for (int k = 0; k < kTapCount; ++k) {
+            const WideVec w = hn::Set(d, across[k]);
+            for (int i = 0; i < kVectorCount; ++i) {
+                float* const to = values + k * row + i * n;
+                hn::StoreU(hn::MulAdd(shares[i], w, hn::LoadU(d, to)), d, to);
+            }
+        }
     }
 
   private:
-#if HWY_TARGET == HWY_AVX3
-    using Indices = decltype(hn::SetTableIndices(Wide(), static_cast<const std::int32_t*>(nullptr)));
-
-    static HWY_INLINE Indices indices(int first, int step) {
-        HWY_ALIGN std::int32_t lanes[16];
-        for (int i = 0; i < 16; ++i) lanes[i] = first + step * (i / 4);
-        return hn::SetTableIndices(Wide(), lanes);
-    }
-    Indices low_, high_, low_reversed_, high_reversed_;
-#else
-    template <int kStep>
-    static HWY_INLINE TexelVec sum_of(const float* HWY_RESTRICT values,
-                                      const float* HWY_RESTRICT weights) {
-        const Texel d;
-        TexelVec a = hn::Mul(hn::Load(d, values), hn::Set(d, weights[0]));
-        TexelVec b = hn::Mul(hn::Load(d, values + 4 * kStep), hn::Set(d, weights[1]));
-        HWY_UNROLL(6)
-        for (int i = 2; i < kTapCount; i += 2) {
-            a = hn::MulAdd(hn::Load(d, values + 4 * i * kStep), hn::Set(d, weights[i]), a);
-            b = hn::MulAdd(hn::Load(d, values + 4 * (i + 1) * kStep), hn::Set(d, weights[i + 1]),
-                           b);
+    // Weights first, first + step, ..., each in the lanes of one texel.
+    static HWY_INLINE WideVec spread(const float* weights, int first, int step) {
+        const Wide d;
+        if constexpr (kVectorCount == kTapCount) {
+            return hn::Set(d, weights[first]);
+        } else {
+            const hn::RebindToSigned<Wide> indices;
+            const auto texel = hn::ShiftRight<2>(hn::Iota(indices, 0));
+            const auto index = hn::Add(hn::Set(indices, first),
+                                       step > 0 ? texel : hn::Sub(hn::Zero(indices), texel));
+            return hn::GatherIndex(d, weights, index);
         }
-        return hn::Add(a, b);
     }
-#endif
+
+    // The sum of the texels in a vector.
+    template <class V>
+    static HWY_INLINE TexelVec folded_texels(V v) {
+        const hn::DFromV<V> d;
+        if constexpr (hn::MaxLanes(hn::DFromV<V>()) > 4) {
+            const hn::Half<decltype(d)> half;
+            return folded_texels(hn::Add(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
+        } else {
+            return v;
+        }
+    }
+
+    WideVec weights_[kVectorCount];
 };
 
 // Sum of eight texels, `step` values apart.
@@ -269,8 +272,8 @@ void gather_sides(float* const* planes, int column_count, int size, const TapLis
 void scatter_caps(const float* const* planes, int column_count, float* north, float* south,
                   std::ptrdiff_t stride) {
     const std::size_t n = hn::Lanes(Lanes());
-    for (int k = 0; k < column_count; ++k) {
-        const std::size_t at = 2 * n * k;
+    for (int k = 0; k < column_count + kTapCount; ++k) {
+        const std::size_t at = 2 * n * (k < column_count ? k : k - column_count);
         store_lanes(planes[0] + at, planes[1] + at, planes[2] + at, north + 4 * k, stride);
         store_lanes(planes[0] + at + n, planes[1] + at + n, planes[2] + at + n, south + 4 * k,
                     stride);
@@ -289,77 +292,71 @@ void gather_caps(float* const* planes, int column_count, const float* north, con
     }
 }
 
-// Texels at distances a0 <= a < a1 along the quadrant's axis. `middle` is the texel at a = 0 and
-// b = 0; texel (a, b) is a * along + b * across values from it, and (a, -b) is
-// a * along + to_negative - b * across.
-void make_cap(const Quadrant& q, int a0, int a1, const float* cap, const Range& range,
-              float* line, float* middle, std::ptrdiff_t along, std::ptrdiff_t across,
-              std::ptrdiff_t to_negative, bool whole_middle) {
-    const Texel d;
-    const TapReader along_line;
-    const std::size_t width = 2 * q.reach + 1;
-    for (int c = -q.reach; c <= q.reach; ++c) {
-        const int column = (q.axis_column + c + q.column_count) % q.column_count;
-        const float* const from = cap + 4 * column;
-        for (int a = a0; a < a1; ++a) {
-            const std::size_t at = static_cast<std::size_t>(a) * (q.reach + 1) + std::abs(c);
-            const TexelVec value = weighted(from + q.rings->first[at] * q.stride,
-                                            static_cast<std::ptrdiff_t>(q.stride),
-                                            q.rings->weights.data() + at * kTapCount);
-            hn::Store(value, d, line + ((a - a0) * width + (c + q.reach)) * 4);
-        }
-    }
+// Calls f(a, b, negative) for the texels at distances a0 <= a < a1 along a quadrant's axis. Each
+// diagonal is one quadrant's, and so is the middle of a face with an odd number of texels. With
+// kStreams above 1, texels that follow each other are far apart and need not wait for each other's
+// sums.
+template <int kStreams, class F>
+HWY_INLINE void for_each_texel_of(const Quadrant& q, int a0, int a1, const F& f) {
+    const bool odd = q.size % 2 == 1;
     for (int a = a0; a < a1; ++a) {
-        const float* const centre = line + ((a - a0) * width + q.reach) * 4;
-        float* const row = middle + a * along;
-        for (int b = 0; b <= a; ++b) {
-            const std::size_t at = static_cast<std::size_t>(a) * q.half + b;
-            const float* const w = q.columns->weights.data() + at * kTapCount;
-            const std::ptrdiff_t first = q.columns->first[at];
-            if (a == 0 && q.size % 2 == 1 && !whole_middle) continue;
-            store_rgb(clamped(along_line(centre + first * 4, w), range), row + b * across);
-            // the other side of the axis; its diagonal is the next quadrant's, its b = 0 this one
-            if (b == a || (b == 0 && q.size % 2 == 1)) continue;
-            store_rgb(clamped(along_line.reversed(centre - (first + kTapCount - 1) * 4, w), range),
-                      row + to_negative - b * across);
+        if (a == 0 && odd) {
+            if (q.axis_column == 0) f(0, 0, false);
+            continue;
+        }
+        if constexpr (kStreams == 1) {
+            for (int b = a - 1; b >= (odd ? 1 : 0); --b) f(a, b, true);
+            for (int b = 0; b <= a; ++b) f(a, b, false);
+            continue;
+        }
+        const int stretch = (a + kStreams) / kStreams;
+        for (int i = 0; i < stretch; ++i) {
+            for (int b = i; b <= a; b += stretch) {
+                f(a, b, false);
+                if (b < a && !(b == 0 && odd)) f(a, b, true);
+            }
         }
     }
 }
 
+// Where the taps of texel (a, b) begin on the first ring of a cap.
+HWY_INLINE std::ptrdiff_t first_tap(const Quadrant& q, std::size_t at, bool negative) {
+    const int first = q.columns->first[at];
+    const int column = q.axis_column + (negative ? -first - (kTapCount - 1) : first);
+    return q.rings->first[at] * static_cast<std::ptrdiff_t>(q.stride) +
+           4 * (column < 0 ? column + q.column_count : column);
+}
+
+// `middle` is the texel at a = 0 and b = 0; texel (a, b) is a * along + b * across values from it,
+// and (a, -b) is a * along + to_negative - b * across.
+void make_cap(const Quadrant& q, int a0, int a1, const float* cap, const Range& range,
+              float* middle, std::ptrdiff_t along, std::ptrdiff_t across,
+              std::ptrdiff_t to_negative) {
+    for_each_texel_of<1>(q, a0, a1, [&](int a, int b, bool negative) HWY_ATTR {
+        const std::size_t at = static_cast<std::size_t>(a) * q.half + b;
+        const RowWeights weights(q.columns->weights.data() + at * kTapCount, negative);
+        const TexelVec value =
+            weights.sum(cap + first_tap(q, at, negative), static_cast<std::ptrdiff_t>(q.stride),
+                        q.rings->weights.data() + at * kTapCount);
+        float* const to = middle + a * along + (negative ? to_negative - b * across : b * across);
+        store_rgb(clamped(value, range), to);
+    });
+}
+
 void spread_cap(const Quadrant& q, int a0, int a1, const float* solid_angles, const float* middle,
                 std::ptrdiff_t along, std::ptrdiff_t across, std::ptrdiff_t to_negative,
-                bool whole_middle, float* line, float* cap) {
+                float* cap) {
     const Texel d;
-    const std::size_t width = 2 * q.reach + 1;
-    std::memset(line, 0, (a1 - a0) * width * 4 * sizeof(float));
-    for (int a = a0; a < a1; ++a) {
-        float* const centre = line + ((a - a0) * width + q.reach) * 4;
-        const float* const row = middle + a * along;
-        for (int b = 0; b <= a; ++b) {
-            const std::size_t at = static_cast<std::size_t>(a) * q.half + b;
-            const float* const w = q.columns->weights.data() + at * kTapCount;
-            const std::ptrdiff_t first = q.columns->first[at];
-            const TexelVec solid_angle = hn::Set(d, solid_angles[at]);
-            if (a == 0 && q.size % 2 == 1 && !whole_middle) continue;
-            add_weighted(hn::Mul(hn::LoadU(d, row + b * across), solid_angle), centre + first * 4,
-                         4, w);
-            if (b == a || (b == 0 && q.size % 2 == 1)) continue;
-            add_weighted(
-                hn::Mul(hn::LoadU(d, row + to_negative - b * across), solid_angle),
-                centre - first * 4, -4, w);
-        }
-    }
-    for (int c = -q.reach; c <= q.reach; ++c) {
-        const int column = (q.axis_column + c + q.column_count) % q.column_count;
-        float* const to = cap + 4 * column;
-        for (int a = a0; a < a1; ++a) {
-            const std::size_t at = static_cast<std::size_t>(a) * (q.reach + 1) + std::abs(c);
-            const TexelVec value = hn::Load(d, line + ((a - a0) * width + (c + q.reach)) * 4);
-            add_weighted(value, to + q.rings->first[at] * q.stride,
-                         static_cast<std::ptrdiff_t>(q.stride),
-                         q.rings->weights.data() + at * kTapCount);
-        }
-    }
+    for_each_texel_of<4>(q, a0, a1, [&](int a, int b, bool negative) HWY_ATTR {
+        const std::size_t at = static_cast<std::size_t>(a) * q.half + b;
+        const RowWeights weights(q.columns->weights.data() + at * kTapCount, negative);
+        const float* const from =
+            middle + a * along + (negative ? to_negative - b * across : b * across);
+        const TexelVec value = hn::Mul(hn::LoadU(d, from), hn::Set(d, solid_angles[at]));
+        weights.add(value, cap + first_tap(q, at, negative),
+                    static_cast<std::ptrdiff_t>(q.stride),
+                    q.rings->weights.data() + at * kTapCount);
+    });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -382,7 +379,7 @@ HWY_EXPORT(spread_cap);
 constexpr int kBeyondPole = 4;  // rings
 // Texels of a block of a side: its columns of rings stay in the cache while its rows are made.
 constexpr int kBlock = 32;
-constexpr int kLines = 8;  // across a quadrant, that are worked on at once
+constexpr int kLines = 8;  // across a quadrant, to a task
 
 Range range_of(const Vec3f& lowest, const Vec3f& highest) {
     Range range{};
@@ -443,8 +440,7 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
       ring_count_(rings.ring_count()),
       column_count_(rings.column_count()),
       lane_count_(rings.lane_count()),
-      group_count_(rings.group_count()),
-      cap_reach_(rings.column_count() / 8 + 5) {
+      group_count_(rings.group_count()) {
     const TapDesign across_rings(power, kPi / ring_count_);
     const TapDesign along_rings(power, 2 * kPi / column_count_);
     const double rings_per_radian = ring_count_ / kPi;
@@ -467,28 +463,24 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
         }
     });
 
-    const std::size_t reach = cap_reach_ + 1;
-    cap_rings_ = TapList(half_ * reach);
+    cap_rings_ = TapList(static_cast<std::size_t>(half_) * half_);
     cap_columns_ = TapList(static_cast<std::size_t>(half_) * half_);
     parallel_for(half_, [&](std::int64_t i) {
         const double a = coordinate(size_ / 2 + static_cast<int>(i));
-        for (std::size_t c = 0; c < reach; ++c) {
-            const double theta = std::atan(a / std::cos(static_cast<double>(c) / columns_per_radian));
-            cap_rings_.set(i * reach + c, theta * rings_per_radian - 0.5 + kBeyondPole,
-                           across_rings);
-        }
         for (int j = 0; j <= i; ++j) {
             const double b = coordinate(size_ / 2 + j);
+            const std::size_t at = static_cast<std::size_t>(i) * half_ + j;
+            const double theta = std::atan(std::hypot(a, b));
             const double psi = a > 0 ? std::atan(b / a) : 0;
-            cap_columns_.set(static_cast<std::size_t>(i) * half_ + j, psi * columns_per_radian,
-                             along_rings);
+            cap_rings_.set(at, theta * rings_per_radian - 0.5 + kBeyondPole, across_rings);
+            cap_columns_.set(at, psi * columns_per_radian, along_rings);
         }
     });
     const int last = *std::max_element(cap_rings_.first.begin(), cap_rings_.first.end()) +
                      kTapCount - kBeyondPole;
     cap_group_count_ = std::min(group_count_, (last + lane_count_ - 1) / lane_count_);
     cap_ring_count_ = kBeyondPole + cap_group_count_ * lane_count_;
-    cap_stride_ = padded(column_count_);
+    cap_stride_ = padded(column_count_ + kTapCount);
 
     const auto table = solid_angle_table(Projection::cube, size, size);
     solid_angles_.resize(static_cast<std::size_t>(half_) * half_);
@@ -572,6 +564,7 @@ void CubeGrid::make_texels(Buffers& buffers, const CubePlacement& placement, con
         float* const to = cap + (kBeyondPole - 1 - i / 2) * cap_stride_;
         std::copy_n(from, 4 * half_way, to + 4 * half_way);
         std::copy_n(from + 4 * half_way, 4 * half_way, to);
+        std::copy_n(to, 4 * kTapCount, to + 4 * column_count_);
     }
     const Range range = range_of(lowest, highest);
     const int per_side = blocks(size_) * blocks(size_);
@@ -594,15 +587,13 @@ void CubeGrid::make_texels(Buffers& buffers, const CubePlacement& placement, con
         const int which = static_cast<int>(task) - 4 * per_side;
         const int cap = which % 2, quadrant = which / 2 % 4, a = which / 8 * kLines;
         const QuadrantPlacement place = place_quadrant(cap, quadrant, placement);
-        ScratchArray line(scratch_, static_cast<std::size_t>(kLines) * (2 * cap_reach_ + 1) * 4);
-        const Quadrant q{size_,        half_,         cap_reach_,
-                         column_count_, quadrant * column_count_ / 4, &cap_rings_,
-                         &cap_columns_, cap_stride_};
+        const Quadrant q{size_,       half_,         column_count_, quadrant * column_count_ / 4,
+                         &cap_rings_, &cap_columns_, cap_stride_};
         HWY_DYNAMIC_DISPATCH(make_cap)
         (q, a, std::min(a + kLines, half_),
-         buffers.caps.data() + cap * cap_ring_count_ * cap_stride_, range, line.data(),
+         buffers.caps.data() + cap * cap_ring_count_ * cap_stride_, range,
          faces[place.face].values().data() + place.middle, place.along, place.across,
-         size_ % 2 == 0 ? -place.across : 0, quadrant == 0);
+         size_ % 2 == 0 ? -place.across : 0);
     });
 }
 
@@ -613,17 +604,12 @@ void CubeGrid::spread_texels(const std::vector<Image>& faces, const CubePlacemen
     const int side_blocks = blocks(size_);
     const auto spread_quadrant = [&](int cap, int quadrant) {
         const QuadrantPlacement place = place_quadrant(cap, quadrant, placement);
-        ScratchArray line(scratch_, static_cast<std::size_t>(kLines) * (2 * cap_reach_ + 1) * 4);
-        const Quadrant q{size_,        half_,         cap_reach_,
-                         column_count_, quadrant * column_count_ / 4, &cap_rings_,
-                         &cap_columns_, cap_stride_};
-        for (int a = 0; a < half_; a += kLines) {
-            HWY_DYNAMIC_DISPATCH(spread_cap)
-            (q, a, std::min(a + kLines, half_), solid_angles_.data(),
-             faces[place.face].values().data() + place.middle, place.along, place.across,
-             size_ % 2 == 0 ? -place.across : 0, quadrant == 0, line.data(),
-             buffers.caps.data() + cap * cap_ring_count_ * cap_stride_);
-        }
+        const Quadrant q{size_,       half_,         column_count_, quadrant * column_count_ / 4,
+                         &cap_rings_, &cap_columns_, cap_stride_};
+        HWY_DYNAMIC_DISPATCH(spread_cap)
+        (q, 0, half_, solid_angles_.data(), faces[place.face].values().data() + place.middle,
+         place.along, place.across, size_ % 2 == 0 ? -place.across : 0,
+         buffers.caps.data() + cap * cap_ring_count_ * cap_stride_);
     };
     // Neighbouring quadrants share columns of the grid, so they take turns.
     parallel_for(4 + 4 * side_blocks, [&](std::int64_t task) {
@@ -642,6 +628,11 @@ void CubeGrid::spread_texels(const std::vector<Image>& faces, const CubePlacemen
         const FlushDenormals flush;
         spread_quadrant(static_cast<int>(task) % 2, static_cast<int>(task) / 2 * 2 + 1);
     });
+    // what went beyond the last column or beyond the pole belongs elsewhere
+    for (int ring = 0; ring < 2 * cap_ring_count_; ++ring) {
+        float* const first = buffers.caps.data() + ring * cap_stride_;
+        for (int k = 0; k < 4 * kTapCount; ++k) first[k] += first[4 * column_count_ + k];
+    }
     const int half_way = column_count_ / 2;
     for (int i = 0; i < 2 * kBeyondPole; ++i) {
         float* const cap = buffers.caps.data() + i % 2 * cap_ring_count_ * cap_stride_;

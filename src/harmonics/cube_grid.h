@@ -1,15 +1,14 @@
-// Between rings of latitude and the faces of a cube, separably.
+// Between rings of latitude and the faces of a cube.
 //
 // Where a cube's axes lie along the grid's, its faces are four sides and two caps. On a side each
 // column of texels has one longitude: rings are interpolated along psi to those longitudes, and
-// then each texel along theta. On a cap, in each of four quadrants, texels at the same distance a
-// along the quadrant's axis lie on a line that crosses the grid's columns once each: columns are
-// interpolated along theta to where they cross that line, and then each texel along psi. Eight taps
-// twice instead of 64 at once. Analysis does the same backwards: it adds where synthesis reads, so
-// that the sum over the grid is the sum over the texels.
+// then each texel along theta, eight taps twice. The texels of a cap take 8 x 8 taps at once; an
+// eighth of a cap has the positions and weights of all of it. Analysis does the same backwards: it
+// adds where synthesis reads, so that the sum over the grid is the sum over the texels.
 //
 //     sides: [ring, those between the caps][column of texels 0 .. 4n][RGBx]
-//     caps:  [north, south][4 rings beyond the pole, rings from the pole on][grid column][RGBx]
+//     caps:  [north, south][4 rings beyond the pole, rings from the pole on][grid column, and the
+//            first eight again][RGBx]
 #pragma once
 
 #include <array>
@@ -51,7 +50,7 @@ struct Block {
 
 /// What a quadrant of a cap reads and writes.
 struct Quadrant {
-    int size, half, reach, column_count, axis_column;
+    int size, half, column_count, axis_column;
     const TapList* rings;
     const TapList* columns;
     std::size_t stride;  // values from a ring to the next
@@ -98,11 +97,10 @@ class CubeGrid {
     int first_side_ring_, cap_group_count_;
     int side_ring_count_, cap_ring_count_;
     std::size_t side_stride_, cap_stride_;  // values from a ring to the next
-    int cap_reach_;                         // grid columns to each side of a quadrant's axis
     TapList side_columns_;                  // [u], grid columns from the side's middle
     TapList side_rings_;                    // [v][u of the left half], from the first side ring
-    TapList cap_rings_;                     // [a][column off the axis], from the pole
-    TapList cap_columns_;                   // [a][b >= 0], grid columns off the axis
+    TapList cap_rings_;                     // [a][b], 0 <= b <= a, from the first ring
+    TapList cap_columns_;                   // the same, columns off the quadrant's axis
     std::vector<float> solid_angles_;       // [|v|][|u|], from the middle out
 };
 
