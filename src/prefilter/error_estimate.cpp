@@ -9,6 +9,9 @@ namespace {
 // Single precision, through a transform of a thousand terms.
 constexpr double kRounding = 1e-6;
 
+// Over what a map of a few texels shows of an error that is spread unevenly.
+constexpr double kMargin = 1.5;
+
 double square(double x) {
     return x * x;
 }
@@ -45,7 +48,7 @@ double estimated_error(std::span<const double> spectrum, const ErrorTerms& terms
         coefficients += 2 * static_cast<double>(l) + 1;
     }
     error += terms.beyond * power / coefficients;
-    return result > 0 ? std::sqrt(error / result) + kRounding : 0;
+    return result > 0 ? kMargin * std::sqrt(error / result) + kRounding : 0;
 }
 
 }  // namespace mirrorball::detail

@@ -39,6 +39,14 @@ class NearKernel {
     /// The value at a squared chord, as the vectorised readers have it.
     [[nodiscard]] float operator()(float chord2) const;
 
+    /// The share of the sphere where it is not zero.
+    [[nodiscard]] double support() const {
+        double share = 0;
+        for (const NearPart& part : parts_)
+            share += (part.farthest * part.farthest - part.nearest * part.nearest) / 4;
+        return share;
+    }
+
     /// Does a ball of chords [nearest, farthest] touch where it is not zero?
     [[nodiscard]] bool reaches(float nearest, float farthest) const {
         for (const NearPart& part : parts_)

@@ -9,7 +9,12 @@
 namespace mirrorball::detail {
 namespace {
 
-constexpr int kEdge = 16;  // of a tile, in texels
+constexpr int kLongestEdge = 16;  // of a tile, in texels
+
+// Tiles small enough to be out of reach of most lights, and large enough to fill vectors.
+int tile_edge(int size) {
+    return size <= 32 ? 4 : size <= 64 ? 8 : kLongestEdge;
+}
 
 struct Block {
     int face, x0, x1, y0, y1;
@@ -17,7 +22,7 @@ struct Block {
 
 // Directions and sums of a tile's texels, one array per component.
 struct TileBuffer {
-    static constexpr std::size_t kCount = kEdge * kEdge;
+    static constexpr std::size_t kCount = kLongestEdge * kLongestEdge;
     std::array<float, kCount> x, y, z, r, g, b, weight;
     std::size_t count = 0;
 
@@ -85,15 +90,16 @@ void fill(P p, const EnvironmentMap& map, const Block& block, const EnvironmentM
 void add(const NearField& field, const NearKernel& near, const EnvironmentMap* far_weights,
          float integral, const Clamp& clamp, EnvironmentMap& map) {
     const int width = map.width(), height = map.height();
-    const int across = (width + kEdge - 1) / kEdge, down = (height + kEdge - 1) / kEdge;
+    const int edge = tile_edge(height);
+    const int across = (width + edge - 1) / edge, down = (height + edge - 1) / edge;
     const std::vector<double> solid_angles = solid_angle_table(map.projection, width, height);
     visit(map.projection, [&](auto p) {
         using P = decltype(p);
         parallel_for(std::int64_t{P::face_count} * down * across, [&](std::int64_t i) {
             const int face = static_cast<int>(i / (across * down));
-            const int x = static_cast<int>(i % across) * kEdge;
-            const int y = static_cast<int>(i / across % down) * kEdge;
-            const Block block{face, x, std::min(x + kEdge, width), y, std::min(y + kEdge, height)};
+            const int x = static_cast<int>(i % across) * edge;
+            const int y = static_cast<int>(i / across % down) * edge;
+            const Block block{face, x, std::min(x + edge, width), y, std::min(y + edge, height)};
             Image& image = map.levels[0].faces[face];
             constexpr bool is_cube = std::is_same_v<P, Cube>;
             if (is_cube && far_weights == nullptr && !reaches(p, field, near, map, block))

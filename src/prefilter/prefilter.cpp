@@ -2,6 +2,7 @@
 #include <mirrorball/prefilter.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -29,14 +30,37 @@ using namespace detail;
 // from fewer bands on.
 constexpr int kMostBands = 1024, kBandsBesideWholeSource = 512;
 
-// Texels this much brighter than the mean are lights: the near part puts them right one by one.
-constexpr float kLight = 24;
+// Texels that are this many times as bright as the mean are lights: the near part puts them right
+// one by one. Where there are so many that this would cost more than all else, for a lobe with a
+// wide near part, fewer are; where the spectrum says that it is not enough, more.
+constexpr float kLights[] = {0, 1.5, 6, 24, 48, 96, 192, 384};
+constexpr std::size_t kUsualLights = 3;
+constexpr double kMostPairs = 1e6;  // of lights and texels, about a nanosecond each
+constexpr std::size_t kMostLights = 2000;
+constexpr double kEnough = 1.5;     // tolerances, as estimated, which is on the safe side
 
-// What harmonics alone are asked for, in tolerances. Bright lights are put right in space, and the
-// spectrum of what is left falls, so the error comes out below: tests/prefilter has the figures.
-constexpr double kSlack = 3;
+// What harmonics alone are asked for of a single lit texel, in tolerances: such a texel is put
+// right in space, and the spectra of all else fall, so that the error comes out far below.
+constexpr double kSlack = 10;
 
 constexpr float kUnbounded = std::numeric_limits<float>::max();
+
+/// What is known of a source before its targets are made.
+struct Source {
+    SourceRange range;
+    Harmonics harmonics;
+    std::vector<double> spectrum;
+    double deviation = 0;  // from the mean over the sphere, over the mean
+    // The texels above each of kLights that a target needs, and the deviation of what they leave
+    // over the mean.
+    struct Lights {
+        NearField field;
+        double rest;
+    };
+    std::array<std::optional<Lights>, std::size(kLights)> lights;
+    std::vector<std::optional<std::size_t>> choices;  // of each target, among them
+    std::optional<NearField> whole;                   // every texel, if a target needs them
+};
 
 /// One target that is not a mere resampling.
 struct Filtered {
@@ -64,11 +88,14 @@ std::vector<double> squares(std::span<const double> values) {
     return result;
 }
 
+double texel_count(const MapShape& shape) {
+    return static_cast<double>(environment_map_bytes(shape.projection, shape.size)) /
+           (3 * sizeof(float));
+}
+
 // Typical angle between texels of a map, in radians.
 double texel_angle(const MapShape& shape) {
-    const double texels = static_cast<double>(environment_map_bytes(shape.projection, shape.size)) /
-                          (3 * sizeof(float));
-    return std::sqrt(4 * kPi / texels);
+    return std::sqrt(4 * kPi / texel_count(shape));
 }
 
 }  // namespace
@@ -87,9 +114,18 @@ class PrefilterPlan::Plan {
     void split_lobes(double tolerance);
     void make_transforms();
     void normalise();
-    void run_target(std::size_t i, const Harmonics& harmonics, std::span<const double> spectrum,
-                    const SourceRange& range, const NearField* lights, double below_rms,
-                    const NearField* whole, Prefiltered& result) const;
+    [[nodiscard]] double spectral_error(const Filtered& f,
+                                        std::span<const double> spectrum) const {
+        return estimated_error(spectrum, {f.lambda, f.split.far, f.waves, f.beyond});
+    }
+    // Of what the near part has nothing to do with.
+    [[nodiscard]] double wave_error(const Filtered& f, std::span<const double> spectrum) const {
+        return estimated_error(spectrum, {f.split.far, f.split.far, f.waves, 0});
+    }
+    void find_lights(const EnvironmentMap& source, Source& s) const;
+    void run_target(std::size_t i, const Source& source, Prefiltered& result) const;
+
+    double tolerance_;
 
     std::vector<std::optional<Filtered>> filtered_;
     std::vector<std::optional<Resampler>> resampled_;
@@ -101,6 +137,7 @@ PrefilterPlan::Plan::Plan(const MapShape& source, std::span<const PrefilterTarge
                           const PrefilterOptions& options)
     : source_(source),
       targets_(targets.begin(), targets.end()),
+      tolerance_(options.tolerance),
       filtered_(targets.size()),
       resampled_(targets.size()) {
     if (!(options.tolerance > 0 && options.tolerance <= 0.1)) {
@@ -196,31 +233,74 @@ void PrefilterPlan::Plan::normalise() {
     });
 }
 
-void PrefilterPlan::Plan::run_target(std::size_t i, const Harmonics& harmonics,
-                                     std::span<const double> spectrum, const SourceRange& range,
-                                     const NearField* lights, double below_rms,
-                                     const NearField* whole, Prefiltered& result) const {
+void PrefilterPlan::Plan::find_lights(const EnvironmentMap& source, Source& s) const {
+    s.choices.resize(targets_.size());
+    const float brightest = std::max({s.range.highest.x, s.range.highest.y, s.range.highest.z});
+    const float mean = static_cast<float>(s.range.mean);
+    if (!(mean > 0)) return;
+    double square = 0;
+    for (std::size_t l = 1; l < s.spectrum.size(); ++l) square += s.spectrum[l];
+    s.deviation = std::sqrt(square / (3 * 4 * kPi)) / mean;
+    std::array<std::vector<Light>, std::size(kLights)> found;
+    const auto lights = [&](std::size_t level) -> const std::vector<Light>& {
+        if (found[level].empty())
+            found[level] = lights_above(source, solid_angles_, s.range, kLights[level] * mean);
+        return found[level];
+    };
+    std::array<std::optional<double>, std::size(kLights)> rests;
+    const auto rest = [&](std::size_t level) {
+        if (!rests[level])
+            rests[level] = deviation_below(source, solid_angles_, kLights[level] * mean) / mean;
+        return *rests[level];
+    };
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        if (!filtered_[i] || filtered_[i]->whole_source_near) continue;
+        const Filtered& f = *filtered_[i];
+        const double pairs_per_light = f.split.near.support() * texel_count(f.synthesis->shape());
+        if (pairs_per_light == 0) continue;
+        std::optional<std::size_t> choice;
+        for (std::size_t level = kUsualLights; level < std::size(kLights) && !choice; ++level) {
+            if (brightest <= kLights[level] * mean) break;
+            const std::size_t count = lights(level).size();
+            if (count <= kMostLights && static_cast<double>(count) * pairs_per_light <= kMostPairs)
+                choice = level;
+        }
+        const double unlit = spectral_error(f, s.spectrum);
+        if (unlit > tolerance_) {
+            std::size_t level = choice.value_or(kUsualLights);
+            while (level > 0 && unlit * rest(level) > kEnough * tolerance_ * s.deviation) --level;
+            if (brightest > kLights[level] * mean) choice = level;
+        }
+        s.choices[i] = choice;
+        if (choice && !s.lights[*choice])
+            s.lights[*choice].emplace(Source::Lights{NearField(lights(*choice)), rest(*choice)});
+    }
+}
+
+void PrefilterPlan::Plan::run_target(std::size_t i, const Source& source,
+                                     Prefiltered& result) const {
     const Filtered& f = *filtered_[i];
     EnvironmentMap& map = result.maps[i];
     const float integral = static_cast<float>(targets_[i].lobe.integral());
-    const Vec3f lowest = range.lowest * integral, highest = range.highest * integral;
-    const bool clamp_later = whole != nullptr || lights != nullptr;
+    const Vec3f lowest = source.range.lowest * integral, highest = source.range.highest * integral;
+    const bool has_near = f.whole_source_near || source.choices[i];
     const Vec3f bound(kUnbounded, kUnbounded, kUnbounded);
-    f.synthesis->run(harmonics, f.far, f.ring_weights, clamp_later ? -bound : lowest,
-                     clamp_later ? bound : highest, map.levels[0].faces);
-    if (f.whole_source_near)
-        add_near_normalised(*whole, f.split.near, *f.far_weights, integral, lowest, highest, map);
-    else if (clamp_later)
-        add_near(lights != nullptr ? *lights : NearField({}), f.split.near, lowest, highest, map);
-    double error = estimated_error(spectrum, {f.lambda, f.split.far, f.waves, f.beyond});
+    f.synthesis->run(source.harmonics, f.far, f.ring_weights, has_near ? -bound : lowest,
+                     has_near ? bound : highest, map.levels[0].faces);
+    double& error = result.errors[i];
+    error = spectral_error(f, source.spectrum);
     if (f.whole_source_near) {
-        error = estimated_error(spectrum, {f.split.far, f.split.far, f.waves, 0});
-    } else if (lights != nullptr) {
-        // with its lights put right, what is off is at most the lobe's tail of what is left
-        const double waves = estimated_error(spectrum, {f.split.far, f.split.far, f.waves, 0});
-        error = std::min(error, waves + f.split.tail * below_rms);
+        add_near_normalised(*source.whole, f.split.near, *f.far_weights, integral, lowest, highest,
+                            map);
+        error = wave_error(f, source.spectrum);
+    } else if (source.choices[i]) {
+        const Source::Lights& lights = *source.lights[*source.choices[i]];
+        add_near(lights.field, f.split.near, lowest, highest, map);
+        // what is left has less of everything, of fine detail even more so, and cannot be off by
+        // more than the lobe's tail of it
+        error = wave_error(f, source.spectrum) +
+                std::min(error * lights.rest / source.deviation, f.split.tail * lights.rest);
     }
-    result.errors[i] = error;
 }
 
 void PrefilterPlan::Plan::run(const EnvironmentMap& source, Prefiltered& result,
@@ -233,32 +313,26 @@ void PrefilterPlan::Plan::run(const EnvironmentMap& source, Prefiltered& result,
     }
     result.errors.assign(targets_.size(), 0);
 
-    const SourceRange range = range_of(source, solid_angles_);
-    Harmonics harmonics(analysis_ ? analysis_->band_count() : 0);
-    if (analysis_) analysis_->run(source.levels[0].faces, harmonics);
-    const std::vector<double> spectrum = power_spectrum(harmonics);
-
-    std::optional<NearField> lights, whole;
-    double below_rms = 0;
-    const float threshold = kLight * static_cast<float>(range.mean);
-    const float brightest = std::max({range.highest.x, range.highest.y, range.highest.z});
-    if (analysis_ && brightest > threshold) {
-        lights.emplace(lights_above(source, solid_angles_, threshold));
-        const double rms = std::sqrt(mean_square_below(source, solid_angles_, threshold));
-        below_rms = range.mean > 0 ? rms / range.mean : 0;
+    Source s{range_of(source, solid_angles_), Harmonics(analysis_ ? analysis_->band_count() : 0),
+             {}, 0, {}, {}, {}};
+    if (analysis_) {
+        analysis_->run(source.levels[0].faces, s.harmonics);
+        s.spectrum = power_spectrum(s.harmonics);
+        find_lights(source, s);
     }
-    for (const auto& f : filtered_) {
-        if (f && f->whole_source_near && !whole)
-            whole.emplace(all_lights(source, solid_angles_));
-    }
+    const auto needs_whole = [](const auto& f) { return f && f->whole_source_near; };
+    if (std::ranges::any_of(filtered_, needs_whole))
+        s.whole.emplace(all_lights(source, solid_angles_));
 
-    parallel_for(static_cast<std::int64_t>(targets_.size()), [&](std::int64_t i) {
-        if (resampled_[i])
-            (*resampled_[i])(source, result.maps[i]);
-        else
-            run_target(static_cast<std::size_t>(i), harmonics, spectrum, range,
-                       lights ? &*lights : nullptr, below_rms, whole ? &*whole : nullptr, result);
-    }, progress);
+    parallel_for(
+        static_cast<std::int64_t>(targets_.size()),
+        [&](std::int64_t i) {
+            if (resampled_[i])
+                (*resampled_[i])(source, result.maps[i]);
+            else
+                run_target(static_cast<std::size_t>(i), s, result);
+        },
+        progress);
 }
 
 PrefilterPlan::PrefilterPlan(const MapShape& source, std::span<const PrefilterTarget> targets,

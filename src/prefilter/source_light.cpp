@@ -90,19 +90,14 @@ RowRange range_of_row(std::span<const float> row, const double* solid_angles) {
 
 // Texels with a channel above `threshold`, as far as they are above it, or whole if it is none.
 std::vector<Light> lights_of(const EnvironmentMap& map, const std::vector<double>& solid_angles,
-                             std::optional<float> limit) {
+                             const SourceRange* range, std::optional<float> limit) {
     const float threshold = limit.value_or(-kInfinity);
     const auto width = static_cast<std::size_t>(map.width());
     std::vector<std::vector<Light>> rows(row_count(map));
     visit(map.projection, [&](auto p) {
         using P = decltype(p);
         for_each_row(map, [&](std::int64_t i, const Image& image, int y) {
-            const std::span<const float> row = image.row(y);
-            float highest = -kInfinity;
-            vectorized([&]() MIRRORBALL_INLINE_BODY {
-                for (const float v : row) highest = v > highest ? v : highest;
-            });
-            if (!(highest > threshold)) return;
+            if (limit && !(range->rows[i] > threshold)) return;
             for (std::size_t x = 0; x < width; ++x) {
                 const double solid_angle = solid_angles[static_cast<std::size_t>(y) * width + x];
                 const Vec3f rgb = image.rgb(static_cast<int>(x), y);
@@ -137,7 +132,7 @@ SourceRange range_of(const EnvironmentMap& map, const std::vector<double>& solid
                       : range_of_row(image.row(y), row);
     });
     SourceRange range{Vec3f(kInfinity, kInfinity, kInfinity),
-                      Vec3f(-kInfinity, -kInfinity, -kInfinity), 0};
+                      Vec3f(-kInfinity, -kInfinity, -kInfinity), 0, {}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!rows[i].finite) {
             const std::size_t height = map.height();
@@ -151,37 +146,55 @@ SourceRange range_of(const EnvironmentMap& map, const std::vector<double>& solid
             range.highest[c] = std::max(range.highest[c], rows[i].highest[c]);
         }
         range.mean += rows[i].power / (3 * 4 * kPi);
+        range.rows.push_back(std::max({rows[i].highest[0], rows[i].highest[1], rows[i].highest[2]}));
     }
     return range;
 }
 
 std::vector<Light> lights_above(const EnvironmentMap& map, const std::vector<double>& solid_angles,
-                                float threshold) {
-    return lights_of(map, solid_angles, threshold);
+                                const SourceRange& range, float threshold) {
+    return lights_of(map, solid_angles, &range, threshold);
 }
 
 std::vector<Light> all_lights(const EnvironmentMap& map, const std::vector<double>& solid_angles) {
-    return lights_of(map, solid_angles, std::nullopt);
+    return lights_of(map, solid_angles, nullptr, std::nullopt);
 }
 
-double mean_square_below(const EnvironmentMap& map, const std::vector<double>& solid_angles,
-                         float threshold) {
+double deviation_below(const EnvironmentMap& map, const std::vector<double>& solid_angles,
+                       float threshold) {
     const auto width = static_cast<std::size_t>(map.width());
-    std::vector<double> rows(row_count(map));
+    struct Moments {
+        double first = 0, second = 0;
+    };
+    std::vector<Moments> rows(row_count(map));
     for_each_row(map, [&](std::int64_t i, const Image& image, int y) {
-        const std::span<const float> row = image.row(y);
-        for (std::size_t x = 0; x < width; ++x) {
-            float sum = 0;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const float v = std::min(row[3 * x + c], threshold);
-                sum += v * v;
-            }
-            rows[i] += sum * solid_angles[static_cast<std::size_t>(y) * width + x];
+        const double* const row = solid_angles.data() + width * static_cast<std::size_t>(y);
+        const std::span<const float> values = image.row(y);
+        // few terms in single precision at a time, each times its texel's share of a full row
+        constexpr std::size_t kStretch = 64;
+        for (std::size_t x = 0; x < width; x += kStretch) {
+            const std::size_t end = std::min(x + kStretch, width);
+            float first = 0, second = 0;
+            vectorized([&]() MIRRORBALL_INLINE_BODY {
+                float sums[6] = {};
+                for (std::size_t k = x; k < end; ++k) {
+                    const auto weight = static_cast<float>(row[k]);
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const float v = values[3 * k + c];
+                        const float below = v < threshold ? v : threshold;
+                        sums[c] += weight * below;
+                        sums[3 + c] += weight * below * below;
+                    }
+                }
+                first = sums[0] + sums[1] + sums[2], second = sums[3] + sums[4] + sums[5];
+            });
+            rows[i].first += first, rows[i].second += second;
         }
     });
-    double sum = 0;
-    for (const double row : rows) sum += row;
-    return sum / (3 * 4 * kPi);
+    Moments all;
+    for (const Moments& row : rows) all.first += row.first, all.second += row.second;
+    const double mean = all.first / (3 * 4 * kPi);
+    return std::sqrt(std::max(0.0, all.second / (3 * 4 * kPi) - mean * mean));
 }
 
 }  // namespace mirrorball::detail

@@ -12,6 +12,7 @@ namespace mirrorball::detail {
 struct SourceRange {
     Vec3f lowest, highest;  ///< per channel
     double mean;            ///< over the sphere and the channels
+    std::vector<float> rows;  ///< greatest value of each row, face after face
 };
 
 /// Over the used texels of level 0.
@@ -23,14 +24,14 @@ struct SourceRange {
 /// lights, and no new edges either.
 [[nodiscard]] std::vector<Light> lights_above(const EnvironmentMap& map,
                                               const std::vector<double>& solid_angles,
-                                              float threshold);
+                                              const SourceRange& range, float threshold);
 
 /// Every used texel.
 [[nodiscard]] std::vector<Light> all_lights(const EnvironmentMap& map,
                                             const std::vector<double>& solid_angles);
 
-/// The mean square over the sphere and the channels of what lights_above() leaves.
-[[nodiscard]] double mean_square_below(const EnvironmentMap& map,
+/// The standard deviation over the sphere and the channels of what lights_above() leaves.
+[[nodiscard]] double deviation_below(const EnvironmentMap& map,
                                        const std::vector<double>& solid_angles, float threshold);
 
 }  // namespace mirrorball::detail
