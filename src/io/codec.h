@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -15,15 +17,29 @@
 
 namespace mirrorball::detail {
 
+/// What a codec writes: FileContents whose pictures, most of them large, stay their owner's.
+struct ContentsView {
+    using Picture = std::reference_wrapper<const Image>;
+
+    std::vector<std::vector<Picture>> levels;  // [level][face]; never empty, all sizes consistent
+    Metadata metadata;
+    std::optional<Projection> projection;
+    std::optional<Axes> axes;
+
+    ContentsView() = default;
+    /// \pre `contents` outlives this
+    ContentsView(const FileContents& contents);
+};
+
 struct Codec {
     std::string_view name;                   // "Radiance HDR"
     std::vector<std::string_view> endings;   // ".hdr", lower case; the first is the usual one
     std::vector<TexelFormat> texel_formats;  // that it writes; the first is the automatic one
     bool (*recognises)(std::span<const std::byte> head);  // the first 32 bytes or fewer
     FileContents (*read)(InputFile& file, const ReadOptions& options);
-    // Writes `contents` (never empty; all sizes consistent) and does not commit. Values are already
-    // within the range of the texel format, which is one of texel_formats. Null if it only reads.
-    void (*write)(OutputFile& file, const FileContents& contents, const WriteOptions& options);
+    // Writes `contents` and does not commit. Values are already within the range of the texel
+    // format, which is one of texel_formats. Null if it only reads.
+    void (*write)(OutputFile& file, const ContentsView& contents, const WriteOptions& options);
     bool holds_cubes = false;  // six faces in one file; else one picture
     bool holds_levels = false;
 };

@@ -216,6 +216,14 @@ std::span<const Codec* const> codecs() {
     return kTable;
 }
 
+ContentsView::ContentsView(const FileContents& contents)
+    : metadata(contents.metadata),
+      projection(contents.projection),
+      axes(contents.axes) {
+    for (const std::vector<Image>& faces : contents.levels)
+        levels.emplace_back(faces.begin(), faces.end());
+}
+
 const Codec& codec_for_name(const std::filesystem::path& path) {
     const std::string ending = lower_case_ending(path);
     std::vector<std::string_view> endings;

@@ -483,13 +483,13 @@ struct Pictures {
     std::optional<Imf::Envmap> environment;
 };
 
-bool is_latlong(const FileContents& contents) {
+bool is_latlong(const ContentsView& contents) {
     const Image& base = contents.levels.front().front();
     return contents.projection == Projection::equirect && contents.axes == kLatLongAxes &&
            base.height() >= 2 && base.width() == 2 * base.height();
 }
 
-Pictures arrange(const OutputFile& file, const FileContents& contents) {
+Pictures arrange(const OutputFile& file, const ContentsView& contents) {
     const std::size_t face_count = contents.levels.front().size();
     if (face_count != 1 && face_count != 6)
         file.fail(fmt::format("{} faces; OpenEXR files hold one picture or a cube", face_count));
@@ -499,9 +499,9 @@ Pictures arrange(const OutputFile& file, const FileContents& contents) {
         result.environment = Imf::ENVMAP_CUBE;
     else if (is_latlong(contents))
         result.environment = Imf::ENVMAP_LATLONG;
-    for (const std::vector<Image>& faces : contents.levels)
+    for (const std::vector<ContentsView::Picture>& faces : contents.levels)
         if (result.environment == Imf::ENVMAP_CUBE)
-            result.levels.push_back(paste_strip(cube_to_edge_grid(faces)));
+            result.levels.push_back(paste_strip(cube_to_edge_grid({faces.begin(), faces.end()})));
         else if (result.environment == Imf::ENVMAP_LATLONG)
             result.levels.push_back(equirect_to_edge_grid(faces.front()));
         else
@@ -535,7 +535,7 @@ std::vector<std::string> channel_names(int channels) {
     }
 }
 
-Imf::Header make_header(const FileContents& contents, const Pictures& pictures,
+Imf::Header make_header(const ContentsView& contents, const Pictures& pictures,
                         const WriteOptions& options) {
     const Image& base = pictures.levels.front();
     Imf::Header header(base.width(), base.height());
@@ -608,7 +608,7 @@ void write_levels(Output& stream, const Imf::Header& header, const std::vector<I
     }
 }
 
-void write(OutputFile& file, const FileContents& contents, const WriteOptions& options) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions& options) {
     const Pictures pictures = arrange(file, contents);
     require_exr_levels(file, pictures.levels);
     try {

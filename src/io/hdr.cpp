@@ -398,7 +398,7 @@ FileContents read(InputFile& file, const ReadOptions& options) {
 }
 
 // One and two channels are grey, and grey with alpha; alpha is dropped, which the format has not.
-void write(OutputFile& file, const FileContents& contents, const WriteOptions&) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions&) {
     const Image& image = contents.levels.front().front();
     const int channels = image.channels();
     HdrWriter writer(file, image.width(), image.height(), contents.metadata);

@@ -90,7 +90,7 @@ FileContents read(InputFile& file, const ReadOptions& options) {
 }
 
 // Alpha is dropped, which the format has not.
-void write(OutputFile& file, const FileContents& contents, const WriteOptions&) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions&) {
     const Image& image = contents.levels.front().front();
     const int channels = image.channels();
     const int kept = channels < 3 ? 1 : 3;
