@@ -31,7 +31,12 @@ namespace {
 bool all_within(std::span<const float> values, float lowest, float largest) {
     std::uint32_t beyond = 0;
     vectorized([&]() MIRRORBALL_INLINE_BODY {
-        for (const float value : values) beyond |= value >= lowest && value <= largest ? 0 : 1;
+        const float least = lowest, most = largest;
+        std::uint32_t found = 0;
+        for (const float value : values)
+            found |= static_cast<std::uint32_t>(!(value >= least)) |
+                     static_cast<std::uint32_t>(!(value <= most));
+        beyond = found;
     });
     return beyond == 0;
 }

@@ -136,22 +136,42 @@ const float* with_channels(std::span<const float> row, int channels, int kept,
     return scratch.data();
 }
 
+// A block of numbers at a time, in an array of their own: files' bytes may lie at any address.
+constexpr std::size_t kBlock = 768;
+
+struct HalfBlock {
+    std::array<std::uint16_t, kBlock + 1> halves;  // a last texel of three can be read as four
+
+    void fill(const float* values, std::size_t count) {
+        vectorized([&]() MIRRORBALL_INLINE_BODY {
+            const float* __restrict from = values;
+            std::uint16_t* __restrict to = halves.data();
+            const std::size_t n = count;
+            for (std::size_t i = 0; i < n; ++i) to[i] = half_bits(from[i]);
+        });
+    }
+};
+
 void pack_halves(const float* values, std::size_t count, std::byte* out) {
-    vectorized([&]() MIRRORBALL_INLINE_BODY {
-        for (std::size_t i = 0; i < count; ++i) store(out + 2 * i, half_bits(values[i]));
-    });
+    HalfBlock block;
+    for (std::size_t i = 0; i < count; i += kBlock) {
+        const std::size_t size = std::min(kBlock, count - i);
+        block.fill(values + i, size);
+        std::memcpy(out + 2 * i, block.halves.data(), 2 * size);
+    }
 }
 
 // Three channels as halves and an alpha of 1: what nearly every file of ours holds.
 void pack_opaque_halves(const float* values, std::size_t width, std::byte* out) {
-    constexpr std::size_t kBlock = 256;
     constexpr std::uint64_t kColour = 0xffff'ffff'ffff, kOne = std::uint64_t{0x3c00} << 48;
-    std::array<std::byte, 6 * kBlock + 2> halves;  // so that the last texel can be read as four
-    for (std::size_t x = 0; x < width; x += kBlock) {
-        const std::size_t count = std::min(kBlock, width - x);
-        pack_halves(values + 3 * x, 3 * count, halves.data());
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto texel = load<std::uint64_t>(halves.data() + 6 * i);
+    HalfBlock block;
+    block.halves.back() = 0;
+    for (std::size_t x = 0; x < width; x += kBlock / 3) {
+        const std::size_t size = std::min(kBlock / 3, width - x);
+        block.fill(values + 3 * x, 3 * size);
+        for (std::size_t i = 0; i < size; ++i) {
+            std::uint64_t texel;
+            std::memcpy(&texel, &block.halves[3 * i], sizeof texel);
             store(out + 8 * (x + i), (texel & kColour) | kOne);
         }
     }
