@@ -211,12 +211,38 @@ std::size_t InputFile::read_some(std::span<std::byte> out) {
     return done;
 }
 
-// Makes memory_ the part of the file that begins at position_.
-void InputFile::fill() {
-    if (buffer_.empty()) buffer_.resize(std::min<std::uint64_t>(kBufferSize, size_));
+std::span<const std::byte> InputFile::look_ahead(std::size_t count) {
+    const std::size_t wanted = std::min<std::uint64_t>(count, remaining());
+    const bool begins_there =
+        position_ >= memory_start_ && position_ - memory_start_ <= memory_.size();
+    const bool there =
+        begins_there && memory_.size() - (position_ - memory_start_) >= wanted;
+    if (!there) fill(wanted);
+    return memory_.subspan(static_cast<std::size_t>(position_ - memory_start_), wanted);
+}
+
+std::unique_ptr<InputFile> InputFile::another() const {
+    int descriptor = -1;
+    if (descriptor_ >= 0) {
+        descriptor = fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+        if (descriptor < 0) fail(fmt::format("cannot be opened ({})", reason(errno)));
+    }
+    return std::unique_ptr<InputFile>(new InputFile(*this, descriptor));
+}
+
+InputFile::InputFile(const InputFile& other, int descriptor)
+    : name_(other.name_),
+      descriptor_(descriptor),
+      size_(other.size_),
+      memory_(descriptor < 0 ? other.memory_ : std::span<const std::byte>()) {}
+
+// Makes memory_ the part of the file that begins at position_, of `least` bytes or more.
+void InputFile::fill(std::size_t least) {
+    const std::size_t usual = std::min<std::uint64_t>(kBufferSize, size_);
+    if (buffer_.size() < std::max(usual, least)) buffer_.resize(std::max(usual, least));
     const ssize_t count = read_fully(descriptor_, buffer_, position_);
     if (count < 0) fail(fmt::format("cannot be read ({})", reason(errno)));
-    if (count == 0) fail(fmt::format("became shorter than {} bytes while it was read", size_));
+    if (count < static_cast<ssize_t>(least)) fail(fmt::format("became shorter than {} bytes while it was read", size_));
     memory_ = std::span<const std::byte>(buffer_).first(static_cast<std::size_t>(count));
     memory_start_ = position_;
 }

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <mirrorball/error.h>
 
+#include "all_within.h"
 #include "codec.h"
 #include "core/parallel.h"
-#include "core/vectorized.h"
 #include "face_pattern.h"
 #include "face_words.h"
 #include "layout.h"
@@ -25,21 +25,6 @@
 namespace mirrorball {
 namespace detail {
 namespace {
-
-// Whether every value is within a range; NaN is in none. Looks at all of them, which for a vector
-// unit is quicker than to stop at the first that is not.
-bool all_within(std::span<const float> values, float lowest, float largest) {
-    std::uint32_t beyond = 0;
-    vectorized([&]() MIRRORBALL_INLINE_BODY {
-        const float least = lowest, most = largest;
-        std::uint32_t found = 0;
-        for (const float value : values)
-            found |= static_cast<std::uint32_t>(!(value >= least)) |
-                     static_cast<std::uint32_t>(!(value <= most));
-        beyond = found;
-    });
-    return beyond == 0;
-}
 
 // Gives faces within the range of a texel format, and keeps account of what it cuts off.
 class FaceEncoder {
