@@ -59,15 +59,28 @@ class RowReader {
 
   private:
     class State;
+    explicit RowReader(std::unique_ptr<State> state);
+    friend std::optional<RowReader> open_if_larger(const std::string&, const MapReadOptions&,
+                                                   std::uint64_t);
     std::unique_ptr<State> state_;
 };
 
-/// What statistics() says of the whole map, to the same bits. Reads all rows that are left.
+/// A reader for what read_map() had better not read: an equirect map of more than `most_bytes`
+/// whose file can be read row by row. None for all else, what read_map() refuses included.
+[[nodiscard]] std::optional<RowReader> open_if_larger(const std::string& source,
+                                                      const MapReadOptions& options,
+                                                      std::uint64_t most_bytes);
+
+/// What statistics() says of the whole map, to rounding. Reads all rows, of which none may have been
+/// read.
 [[nodiscard]] LevelStatistics statistics(RowReader& rows);
 
 /// The map made `factor` times smaller: each texel the mean of those under it, by exact solid angle.
 /// Holds little more than the result. Reads all rows, of which none may have been read.
 /// \throws Error(Errc::usage) unless factor is at least 1 and divides the height
 [[nodiscard]] EnvironmentMap reduced(RowReader& rows, int factor);
+/// The least factor that makes a map of at most `most_bytes`, what reduced() holds beside it
+/// counted in; none if no factor does.
+[[nodiscard]] std::optional<int> factor_to_fit(const RowReader& rows, std::uint64_t most_bytes);
 
 }  // namespace mirrorball

@@ -527,8 +527,7 @@ class ExrRows : public RowSource {
             FileContents contents)
         : file_(file),
           picture_(std::move(picture)),
-          window_(exr.header(picture_.part).dataWindow()),
-          readers_(file, picture_.part) {
+          window_(exr.header(picture_.part).dataWindow()) {
         const Imf::Header& part = exr.header(picture_.part);
         header.width = static_cast<int>(width_of(window_));
         header.height = static_cast<int>(height_of(window_));
@@ -552,18 +551,19 @@ class ExrRows : public RowSource {
     }
     [[nodiscard]] int rows_at_once() const override {
         constexpr int kEnough = 64;
-        return std::max(kEnough / piece_rows_, readers_.kCount) * piece_rows_;
+        return std::max(kEnough / piece_rows_, PartReaders::kCount) * piece_rows_;
     }
     // A reader holds a piece as it is stored, the same unpacked, and the table of all pieces.
     [[nodiscard]] std::uint64_t bytes_held() const override {
         const double piece = double(header.width) * piece_rows_ * texel_bytes_;
         const double table = 8.0 * header.height;
-        return static_cast<std::uint64_t>(readers_.kCount * (3 * piece + table));
+        return static_cast<std::uint64_t>(PartReaders::kCount * (3 * piece + table));
     }
 
   private:
     void read_lines(int count, std::span<float> values) {
-        readers_.for_each_range(done_, count, piece_rows_,
+        if (!readers_) readers_.emplace(file_, picture_.part);
+        readers_->for_each_range(done_, count, piece_rows_,
                                 [&](Imf::InputPart& part, int first, int last) {
             const Imf::FrameBuffer buffer = frame_buffer(
                 values.data() + static_cast<std::size_t>(first - done_) * values.size() / count,
@@ -576,7 +576,7 @@ class ExrRows : public RowSource {
     InputFile& file_;
     Picture picture_;
     Box2i window_;
-    PartReaders readers_;
+    std::optional<PartReaders> readers_;  // none before they are needed
     int piece_rows_ = 1, done_ = 0;
     double texel_bytes_ = 0;
 };

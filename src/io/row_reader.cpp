@@ -32,17 +32,27 @@ using namespace detail;
 
 class RowReader::State {
   public:
-    State(const std::string& source, const MapReadOptions& options)
+    // Where the rows cannot be had one by one: read the whole, or leave it.
+    enum class Otherwise { read_whole, leave };
+
+    State(const std::string& source, const MapReadOptions& options, Otherwise otherwise)
         : name_(source),
           options_(options) {
         std::string obstacle;
-        if (!open_rows(obstacle)) read_whole(obstacle);
-        if (bytes_held() > options.memory_limit) {
+        if (!open_rows(obstacle)) {
+            if (otherwise == Otherwise::leave) return;
+            read_whole(obstacle);
+        }
+        if (otherwise == Otherwise::read_whole) require_equirect();
+    }
+
+    void check_memory() const {
+        if (bytes_held() > options_.memory_limit) {
             const auto mib = [](std::uint64_t count) { return double(count) / (1024 * 1024); };
             throw Error(Errc::cannot_read,
                         fmt::format("{}: reading its rows takes {:.1f} MiB of memory, and the "
                                     "limit is {:.1f} MiB",
-                                    name_, mib(bytes_held()), mib(options.memory_limit)));
+                                    name_, mib(bytes_held()), mib(options_.memory_limit)));
         }
     }
 
@@ -73,6 +83,7 @@ class RowReader::State {
     [[nodiscard]] bool streams() const { return rows_ != nullptr; }
     [[nodiscard]] int given() const { return given_; }
 
+    Projection projection = Projection::equirect;
     int width = 0, height = 0;
     Axes axes;
     std::optional<Lobe> lobe;
@@ -120,7 +131,7 @@ class RowReader::State {
         const MapWords words = parse_words(metadata, name_);
         const StoredPictures pictures{1, width, height};
         const Shape shape = decide_shape(name_, pictures, words, options_, notes);
-        require_equirect(shape.projection);
+        projection = shape.projection;
         axes = decide_axes(shape.projection, pictures, words, options_);
         if (words.lobes && !words.lobes->empty()) lobe = words.lobes->front();
         if (!words.lobes && words.irradiance) lobe = Lobe{Lobe::Kind::diffuse};
@@ -130,7 +141,7 @@ class RowReader::State {
     void read_whole(const std::string& obstacle) {
         file_.reset();
         LoadedMap loaded = read_map(name_, options_);
-        require_equirect(loaded.map.projection);
+        projection = loaded.map.projection;
         Level& level = loaded.map.levels.front();
         width = level.width();
         height = level.height();
@@ -144,7 +155,7 @@ class RowReader::State {
         whole_ = std::move(level.faces.front());
     }
 
-    void require_equirect(Projection projection) const {
+    void require_equirect() const {
         if (projection == Projection::equirect) return;
         fail(Errc::usage, fmt::format("is {}; only equirect maps are read row by row",
                                       map_in_words(projection)));
@@ -313,7 +324,10 @@ class RowReader::State {
 };
 
 RowReader::RowReader(const std::string& source, const MapReadOptions& options)
-    : state_(std::make_unique<State>(source, options)) {}
+    : state_(std::make_unique<State>(source, options, State::Otherwise::read_whole)) {
+    state_->check_memory();
+}
+RowReader::RowReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
 RowReader::~RowReader() = default;
 RowReader::RowReader(RowReader&&) noexcept = default;
 RowReader& RowReader::operator=(RowReader&&) noexcept = default;
@@ -359,6 +373,17 @@ int RowReader::read(std::span<float> rows) {
 }
 int RowReader::next_row() const {
     return state_->given();
+}
+
+std::optional<RowReader> open_if_larger(const std::string& source, const MapReadOptions& options,
+                                        std::uint64_t most_bytes) {
+    using State = RowReader::State;
+    auto state = std::make_unique<State>(source, options, State::Otherwise::leave);
+    if (!state->streams() || state->projection != Projection::equirect ||
+        environment_map_bytes(Projection::equirect, state->width) <= most_bytes)
+        return std::nullopt;
+    state->check_memory();
+    return RowReader(std::move(state));
 }
 
 namespace {
@@ -438,6 +463,19 @@ EnvironmentMap reduced(RowReader& rows, int factor) {
         }
     });
     return map;
+}
+
+std::optional<int> factor_to_fit(const RowReader& rows, std::uint64_t most_bytes) {
+    const std::uint64_t batch = sizeof(float) * rows.row_size() * rows.rows_at_once();
+    for (int factor = 1; factor <= rows.height(); ++factor) {
+        if (rows.height() % factor != 0) continue;
+        const std::uint64_t sums = 2 * batch / factor;
+        const std::uint64_t bytes =
+            rows.bytes_held() + batch + sums +
+            environment_map_bytes(Projection::equirect, rows.width() / factor);
+        if (bytes <= most_bytes) return factor;
+    }
+    return std::nullopt;
 }
 
 }  // namespace mirrorball
