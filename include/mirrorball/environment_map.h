@@ -42,6 +42,16 @@ struct EnvironmentMap {
 /// 1, or odd for an equirect
 [[nodiscard]] EnvironmentMap make_environment_map(Projection projection, int size);
 
+/// All that decides where a map's texels lie; `size` as in make_environment_map().
+struct MapShape {
+    Projection projection = Projection::equirect;
+    int size = 0;
+    Axes axes;
+
+    bool operator==(const MapShape&) const = default;
+};
+[[nodiscard]] MapShape shape_of(const EnvironmentMap& map);
+
 /// Bytes that such a map holds, to check against a limit before making it.
 [[nodiscard]] std::uint64_t environment_map_bytes(Projection projection, std::int64_t size);
 

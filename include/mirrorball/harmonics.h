@@ -1,44 +1,53 @@
-// Spherical harmonics: an environment in nine numbers per channel, enough for its irradiance.
+// Spherical harmonics: light as waves on the sphere, of any fineness.
 //
-// The basis is the real, orthonormal one of Ramamoorthi and Hanrahan 2001, "An Efficient
-// Representation for Irradiance Environment Maps", without the Condon-Shortley sign, on our world's
-// axes (right-handed, +Y up), with (x, y, z) the unit direction:
+// A function on the sphere with `band_count` bands is a sum over degrees l < band_count and orders
+// -l <= m <= l of coefficients times the real, orthonormal harmonics about +Y,
 //
-//     Y_0,0 = sqrt(1/4pi)
-//     Y_1,-1 = sqrt(3/4pi) y        Y_1,0 = sqrt(3/4pi) z         Y_1,1 = sqrt(3/4pi) x
-//     Y_2,-2 = sqrt(15/4pi) x y     Y_2,-1 = sqrt(15/4pi) y z     Y_2,0 = sqrt(5/16pi) (3 z^2 - 1)
-//     Y_2,1 = sqrt(15/4pi) x z      Y_2,2 = sqrt(15/16pi) (x^2 - y^2)
+//     Y_l,0  = P_l^0(cos theta)             theta the angle to +Y
+//     Y_l,m  = P_l^m(cos theta) cos m psi   psi = atan2(x, z), m > 0
+//     Y_l,-m = P_l^m(cos theta) sin m psi
 //
-// Coefficients are stored in this order: (l, m) at l^2 + l + m.
+// with P_l^m >= 0 next to the pole (no Condon-Shortley sign). Degree l has features of about
+// 180 / l degrees. Filtering with a lobe multiplies degree l by a number (zonal.h).
 #pragma once
 
-#include <array>
+#include <span>
+#include <vector>
 
 #include <mirrorball/environment_map.h>
 
 namespace mirrorball {
 
-inline constexpr int kHarmonicCount = 9;
+/// Coefficients of RGB light in the world's frame. Single precision: 1e-7 of the map's own rms.
+class Harmonics {
+  public:
+    /// All zero. \pre band_count >= 0
+    explicit Harmonics(int band_count = 0);
 
-struct Harmonics {
-    std::array<Vec3d, kHarmonicCount> coefficients;
+    [[nodiscard]] int band_count() const { return band_count_; }
 
-    Harmonics() { coefficients.fill(Vec3d(0, 0, 0)); }  // Imath's vectors begin undefined
+    /// The coefficient of Y_l,m. \pre 0 <= l < band_count(), -l <= m <= l
+    [[nodiscard]] Vec3f coefficient(int l, int m) const;
+    void set_coefficient(int l, int m, const Vec3f& value);
+
+    /// All coefficients of orders m and -m, m >= 0: for each degree l from m on six values, RGB of
+    /// Y_l,m and RGB of Y_l,-m (zero for m = 0).
+    [[nodiscard]] std::span<float> order(int m) { return {values_.data() + begin(m), size(m)}; }
+    [[nodiscard]] std::span<const float> order(int m) const {
+        return {values_.data() + begin(m), size(m)};
+    }
+
+  private:
+    [[nodiscard]] std::size_t size(int m) const {
+        return 6 * static_cast<std::size_t>(band_count_ - m);
+    }
+    [[nodiscard]] std::size_t begin(int m) const {
+        const std::size_t order = m, bands = band_count_;
+        return 6 * (order * bands - order * (order - 1) / 2);
+    }
+
+    int band_count_;
+    std::vector<float> values_;
 };
-
-/// The nine basis functions. \pre |direction| == 1
-[[nodiscard]] std::array<double, kHarmonicCount> harmonic_basis(const Vec3d& direction);
-
-/// Radiance's coefficients, L_lm = integral of L Y_lm dw: a sum in double over every used texel, by
-/// its exact solid angle. A uniform environment of radiance L has L_00 = sqrt(4 pi) L and no
-/// others, to rounding and, for the others, to the square of the texels' size.
-[[nodiscard]] Harmonics analyse(const EnvironmentMap& map, int level = 0);
-
-/// Irradiance's coefficients from radiance's: E_lm = A_l L_lm, A = pi, 2 pi / 3, pi / 4. What the
-/// bands above carry is at most a few percent of a diffuse map, more where one small light is all.
-[[nodiscard]] Harmonics convolved_with_cosine(const Harmonics& radiance);
-
-/// The sum of coefficient times basis function. \pre |direction| == 1
-[[nodiscard]] Vec3d evaluate(const Harmonics& harmonics, const Vec3d& direction);
 
 }  // namespace mirrorball

@@ -42,8 +42,10 @@ struct PrefilterTarget {
                                                     const Progress& progress = {});
 
 /// Which roughness or exponent each mip level of a chain stands for, by the program that will read
-/// it (docs/conventions.md): "gltf", "filament", "unreal", "unity", "playcanvas", "cmft". Level 0
-/// of most is the mirror. \throws Error(Errc::usage) naming the mappings there are
+/// it (docs/conventions.md): "gltf", "filament", "unreal", "unity", "playcanvas", "cmft",
+/// "cmft-phongbrdf". Level 0 of most is the mirror. A program that knows fewer levels than asked
+/// for has its widest lobe in those beyond. \throws Error(Errc::usage) naming the mappings there
+/// are
 [[nodiscard]] std::vector<Lobe> level_lobes(std::string_view mapping, int level_count);
 [[nodiscard]] std::vector<std::string> level_mappings();
 

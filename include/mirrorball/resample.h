@@ -1,6 +1,9 @@
 // Resampling: from any projection, size and frame to any other.
 #pragma once
 
+#include <cstddef>
+#include <memory>
+
 #include <mirrorball/environment_map.h>
 #include <mirrorball/progress.h>
 
@@ -31,6 +34,36 @@ struct ResampleOptions {
 /// `size` as in make_environment_map(); the result is in `axes`. Same bits for any thread count.
 [[nodiscard]] EnvironmentMap resample(const EnvironmentMap& source, Projection projection, int size,
                                       const Axes& axes, const ResampleOptions& options = {});
+
+/// resample() for many maps of one shape: what does not depend on pixels is worked out once. Gives
+/// the same bits. Copies share it; may be used from many threads at once.
+///
+/// Holds 16 bytes per texel of the result and 24 per cell of a texel that is cut into cells, less
+/// what symmetries save: parts of the result that take alike from alike parts of the source share
+/// theirs. A cube map of a panorama in like axes holds a twelfth. bytes() says how much it is.
+class Resampler {
+  public:
+    /// \throws Error(Errc::usage) as make_environment_map() does
+    Resampler(const MapShape& source, const MapShape& target,
+              Interpolation interpolation = Interpolation::bicubic);
+
+    /// \throws Error(Errc::usage) if the source is not of the plan's shape
+    [[nodiscard]] EnvironmentMap operator()(const EnvironmentMap& source,
+                                            const Progress& progress = {}) const;
+    /// Writes level 0 of a map that is there already: all of it, unused texels as zero. No fresh
+    /// memory is touched, which costs more than the work at times.
+    /// \throws Error(Errc::usage) if either is not of the plan's shape
+    void operator()(const EnvironmentMap& source, EnvironmentMap& result,
+                    const Progress& progress = {}) const;
+
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    class Plan;
+    friend EnvironmentMap resample(const EnvironmentMap&, Projection, int, const Axes&,
+                                   const ResampleOptions&);
+    std::shared_ptr<const Plan> plan_;
+};
 
 /// Appends levels of half the size, rounded down, to 1 x 1 (equirect: 2 x 1), or `level_count` in
 /// all. A texel is the mean of those under it, by exact solid angle: every level has level 0's

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <mirrorball/harmonics.h>
+#include <mirrorball/nine_harmonics.h>
 #include <mirrorball/io.h>
 
 #include "options.h"
@@ -51,7 +51,7 @@ struct Bake {
     LoadedMap source;
     LevelStatistics source_statistics;
     BakedMap environment, specular, phong, diffuse;
-    Harmonics radiance;
+    NineHarmonics radiance;
     double harmonics_error =
         0;                ///< of E(n) from nine coefficients, relative RMSE over the diffuse map
     double exposure = 1;  ///< of the pictures

@@ -58,7 +58,7 @@ Json options_json(const BakeOptions& options) {
             {"format", name(options.format)}};
 }
 
-Json coefficients_json(const Harmonics& harmonics) {
+Json coefficients_json(const NineHarmonics& harmonics) {
     Json json = Json::array();
     for (int l = 0; l <= 2; ++l) {
         for (int m = -l; m <= l; ++m) {

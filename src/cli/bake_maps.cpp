@@ -51,7 +51,7 @@ std::vector<LevelFacts> facts_of(const EnvironmentMap& map, const Vec3d& source_
 }
 
 // Irradiance of the nine coefficients, as a map to compare with the one that was integrated.
-EnvironmentMap irradiance_map(const Harmonics& irradiance, const EnvironmentMap& like) {
+EnvironmentMap irradiance_map(const NineHarmonics& irradiance, const EnvironmentMap& like) {
     EnvironmentMap map = like;
     for (int face = 0; face < face_count(map.projection); ++face) {
         Image& image = map.levels[0].faces[face];
@@ -115,7 +115,7 @@ void compute_maps(Bake& bake, ProgressBar& bar) {
     make_prefiltered(bake, bar);
     bake.timings.push_back({"prefiltering", watch.lap()});
 
-    bake.radiance = analyse(bake.source.map);
+    bake.radiance = analyse_nine(bake.source.map);
     bake.harmonics_error =
         compare(irradiance_map(convolved_with_cosine(bake.radiance), bake.diffuse.map),
                 bake.diffuse.map)

@@ -42,7 +42,7 @@ class Painter {
              [&](const Vec3d& n) { return look_up(map, 0, n) * static_cast<float>(1 / kPi); });
     }
 
-    void harmonics_ball(const Harmonics& irradiance, const std::string& file) const {
+    void harmonics_ball(const NineHarmonics& irradiance, const std::string& file) const {
         ball(file, [&](const Vec3d& n) { return Vec3f(evaluate(irradiance, n) / kPi); });
     }
 

@@ -11,34 +11,60 @@
 namespace mirrorball::cli {
 namespace {
 
-std::vector<Lobe> whole_chain(Lobe::Kind kind, const std::string& text, const std::string& mapping,
-                              int level_count) {
-    const std::string usual = kind == Lobe::Kind::ggx ? "gltf" : "playcanvas";
-    const std::string& chosen = mapping.empty() ? usual : mapping;
-    const std::vector<Lobe> lobes = level_lobes(chosen, level_count);
-    for (const Lobe& lobe : lobes) {
-        if (lobe.kind != kind && lobe.kind != Lobe::Kind::mirror) {
+struct Chain {
+    std::string_view name;  // of the lobe without its parameter
+    Lobe::Kind kind;        // of the levels that the mapping gives
+    const char* usual_mapping;
+};
+constexpr Chain kChains[] = {
+    {"ggx", Lobe::Kind::ggx, "gltf"},
+    {"phong", Lobe::Kind::phong, "playcanvas"},
+    {"charlie", Lobe::Kind::ggx, "gltf"},  // the same roughnesses
+};
+
+std::vector<Lobe> whole_chain(const Chain& chain, const std::string& mapping, int level_count) {
+    const std::string chosen = mapping.empty() ? chain.usual_mapping : mapping;
+    std::vector<Lobe> lobes = level_lobes(chosen, level_count);
+    for (Lobe& lobe : lobes) {
+        if (lobe.kind != chain.kind && lobe.kind != Lobe::Kind::mirror) {
             throw Error(Errc::usage,
                         fmt::format("--mapping: {} is a chain of {} lobes, --lobe is {}", chosen,
-                                    split(to_string(lobe), ':').front(), text));
+                                    split(to_string(lobe), ':').front(), chain.name));
         }
+        if (chain.name == "charlie")
+            lobe = {Lobe::Kind::charlie, std::max(lobe.parameter, kLeastCharlieRoughness)};
     }
     return lobes;
+}
+
+// A lobe as typed: unlike in metadata, a table is a file to read.
+Lobe read_lobe(const std::string& text) {
+    constexpr std::string_view table = "table:";
+    if (text.starts_with(table)) return read_lobe_table(text.substr(table.size()));
+    return parse_lobe(text);
+}
+
+bool is_number(const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789.eE+-") == std::string::npos;
 }
 
 }  // namespace
 
 std::vector<Lobe> parse_lobes(const std::string& text, const std::string& mapping,
                               int level_count) {
-    if (text == "ggx") return whole_chain(Lobe::Kind::ggx, text, mapping, level_count);
-    if (text == "phong") return whole_chain(Lobe::Kind::phong, text, mapping, level_count);
+    for (const Chain& chain : kChains)
+        if (text == chain.name) return whole_chain(chain, mapping, level_count);
     if (!mapping.empty()) {
-        throw Error(Errc::usage, fmt::format("--mapping is for a whole chain, --lobe ggx or phong; "
-                                             "found --lobe {}",
+        throw Error(Errc::usage, fmt::format("--mapping is for a whole chain, --lobe ggx, phong or "
+                                             "charlie; found --lobe {}",
                                              text));
     }
     std::vector<Lobe> lobes;
-    for (const std::string& part : split(text, ',')) lobes.push_back(parse_lobe(part));
+    std::string kind;  // of the one before, with its colon
+    for (const std::string& part : split(text, ',')) {
+        lobes.push_back(read_lobe(is_number(part) ? kind + part : part));
+        if (!is_number(part)) kind = part.substr(0, part.find(':') + 1);
+    }
     return lobes;
 }
 

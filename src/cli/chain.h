@@ -8,8 +8,9 @@
 
 namespace mirrorball::cli {
 
-/// "ggx:0.1,ggx:0.5" as it stands; "ggx" or "phong" alone is the chain that `mapping` gives for
-/// `level_count` levels (empty: gltf for ggx, playcanvas for phong). \throws Error(Errc::usage)
+/// "ggx:0.1,0.5,diffuse" as it stands, a number alone standing for another lobe of the kind before;
+/// "table:FILE" is read (lobe.h). "ggx", "phong" or "charlie" alone is the chain that `mapping`
+/// gives for `level_count` levels (empty: playcanvas for phong, else gltf). \throws Error
 [[nodiscard]] std::vector<Lobe> parse_lobes(const std::string& text, const std::string& mapping,
                                             int level_count);
 

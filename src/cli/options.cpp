@@ -91,8 +91,8 @@ Choices axes_choices() {
 }
 
 Choices lobe_choices() {
-    return {
-        .values = {"mirror", "diffuse", "phong", "phong:100", "blinn-phong:400", "ggx", "ggx:0.5"}};
+    return {.values = {"mirror", "diffuse", "phong", "phong:100", "blinn-phong:400", "ggx",
+                       "ggx:0.5", "charlie", "charlie:0.5"}};
 }
 
 Choices mapping_choices() {

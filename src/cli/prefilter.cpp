@@ -89,10 +89,11 @@ Command prefilter_command(Shared& shared) {
     command.options = {
         {"-o,--output", "FILE", output_help(), text(options->output), file_choices(), true},
         {"--lobe", "LOBE",
-         "mirror, diffuse, phong:N, blinn-phong:N, ggx:ROUGHNESS; ggx or phong alone is a whole "
-         "chain, and a list (ggx:0.1,ggx:0.5) one lobe per level",
+         "mirror, diffuse, phong:N, blinn-phong:N, ggx:ROUGHNESS, charlie:ROUGHNESS or table:FILE "
+         "(lines of degrees and weight); ggx, phong or charlie alone is a whole chain, and a list "
+         "(ggx:0.1,0.25,0.5) one lobe per level",
          text(options->lobe), lobe_choices(), true},
-        {"--mapping", "PRESET", "of the chain's levels [gltf for ggx, playcanvas for phong]",
+        {"--mapping", "PRESET", "of the chain's levels [gltf; playcanvas for phong]",
          text(options->mapping), mapping_choices()},
         {"--levels", "N", "of the chain [down to 16 texels]", whole_number(options->levels, 2, 21)},
         {"--to", "PROJECTION", "of the result [cube]",

@@ -181,6 +181,10 @@ std::string lobe_heading(const Lobe& lobe) {
         case Lobe::Kind::ggx:
             return lobe.is_delta() ? "Roughness 0, a mirror"
                                    : fmt::format("Roughness {:.3g}", lobe.parameter);
+        case Lobe::Kind::charlie:
+            return fmt::format("Sheen, roughness {:.3g}", lobe.parameter);
+        case Lobe::Kind::tabulated:
+            return fmt::format("Measured: {}", lobe.table->name);
     }
     return "";
 }

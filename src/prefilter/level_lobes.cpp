@@ -22,6 +22,11 @@ double share(int level, int level_count) {
     return level_count > 1 ? static_cast<double>(level) / (level_count - 1) : 0;
 }
 
+// 2^(scale gloss + bias), glossScale 10, glossBias 1
+double cmft_exponent(int level, int level_count) {
+    return std::exp2(10 * (1 - share(level, level_count)) + 1);
+}
+
 struct Mapping {
     std::string_view name;
     Lobe (*lobe)(int level, int level_count);
@@ -44,9 +49,9 @@ constexpr Mapping kMappings[] = {
          if (level == 0) return Lobe{};
          return phong(std::max(1.0, std::floor(2048 * std::exp2(-2 * level))));
      }},
-    // glossScale 10, glossBias 1
-    {"cmft",
-     [](int level, int count) { return phong(std::exp2(10 * (1 - share(level, count)) + 1)); }},
+    {"cmft", [](int level, int count) { return phong(cmft_exponent(level, count)); }},
+    // its lighting model "phongbrdf" keeps the cosine of the light's angle, which is the lobe's own
+    {"cmft-phongbrdf", [](int level, int count) { return phong(cmft_exponent(level, count) + 1); }},
 };
 
 }  // namespace

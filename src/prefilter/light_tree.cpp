@@ -24,6 +24,16 @@ constexpr double kNegligible = 1e-7;
 
 constexpr int kLargestFace = 1024;
 
+// From the steepest of a table's lines; no finer than a texel of 2048 along the equator.
+double table_scale(const LobeTable& table) {
+    double slope = 0;
+    for (std::size_t i = 1; i < table.angles.size(); ++i)
+        slope = std::max(slope, std::abs(table.weights[i] - table.weights[i - 1]) /
+                                    (table.angles[i] - table.angles[i - 1]));
+    const double peak = *std::max_element(table.weights.begin(), table.weights.end());
+    return std::clamp(peak / (2 * slope), 0.003, 0.3);
+}
+
 // Wide lobes end in a crease at the horizon, which bounds their scale.
 double scale_of(const Lobe& lobe) {
     const double exponent = std::max(lobe.parameter, 1.0);
@@ -34,13 +44,19 @@ double scale_of(const Lobe& lobe) {
             return std::min(0.6, 3.0 / std::sqrt(exponent));
         case Lobe::Kind::ggx:
             return std::min(0.5, 1.2 * lobe.parameter * lobe.parameter);
+        case Lobe::Kind::charlie:
+            return std::min(0.3, 2 * lobe.parameter * lobe.parameter);
+        case Lobe::Kind::tabulated:
+            return table_scale(*lobe.table);
         default:
             return 0.6;
     }
 }
 
-// By bisection; every lobe falls monotonically.
-double reach_of(const LobeKernel& kernel) {
+// By bisection: every lobe falls monotonically but for rings and tables, which reach all they can.
+double reach_of(const LobeKernel& kernel, Lobe::Kind kind) {
+    if (kind == Lobe::Kind::charlie || kind == Lobe::Kind::tabulated)
+        return 2 * std::sin(kernel.widest_angle() / 2);
     const double least = kNegligible * kernel(1);
     double near = 0, far = std::sqrt(2.0);
     for (int i = 0; i < 50; ++i) {
@@ -89,7 +105,7 @@ TreeLobe::TreeLobe(const Lobe& lobe)
     : kernel(lobe),
       integral(lobe.integral()),
       scale(scale_of(lobe)),
-      reach(reach_of(kernel)),
+      reach(reach_of(kernel, lobe.kind)),
       power_tail(lobe.kind == Lobe::Kind::ggx) {
     if (lobe.kind != Lobe::Kind::phong && lobe.kind != Lobe::Kind::blinn_phong) return;
     table_scale = kTableSteps / (reach * reach);

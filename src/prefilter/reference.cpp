@@ -27,13 +27,16 @@ std::vector<SourceTexel> used_texels(const EnvironmentMap& source) {
     return texels;
 }
 
-// Where no texel is within the lobe's reach (an exponent in the millions), the nearest one is all
-// that the lobe could see.
-const SourceTexel& nearest(const std::vector<SourceTexel>& texels, const Vec3d& axis) {
-    return *std::max_element(texels.begin(), texels.end(),
-                             [&](const SourceTexel& a, const SourceTexel& b) {
-                                 return a.direction.dot(axis) < b.direction.dot(axis);
-                             });
+// Where no texel is within the lobe's reach (an exponent in the millions), the one nearest to where
+// the lobe peaks is all that it could see.
+const SourceTexel& nearest(const std::vector<SourceTexel>& texels, const Vec3d& axis,
+                           double peak_cosine) {
+    const auto distance = [&](const SourceTexel& texel) {
+        return std::abs(texel.direction.dot(axis) - peak_cosine);
+    };
+    return *std::min_element(
+        texels.begin(), texels.end(),
+        [&](const SourceTexel& a, const SourceTexel& b) { return distance(a) < distance(b); });
 }
 
 Vec3d filtered(const std::vector<SourceTexel>& texels, const detail::LobeKernel& kernel,
@@ -48,7 +51,7 @@ Vec3d filtered(const std::vector<SourceTexel>& texels, const detail::LobeKernel&
         weights += weight;
     }
     if (weights < std::numeric_limits<double>::min())
-        return nearest(texels, axis).radiance * integral;
+        return nearest(texels, axis, kernel.peak_cosine()).radiance * integral;
     return sum * (integral / weights);
 }
 

@@ -13,16 +13,26 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+#include <mirrorball/error.h>
 
 #include "core/parallel.h"
 #include "core/vectorized.h"
-#include "resample/sampler.h"
+#include "resample/across_edges.h"
+#include "resample/rgbx.h"
+#include "resample/symmetry.h"
+#include "resample/weigh.h"
 
 namespace mirrorball {
 namespace {
 
+using detail::Box;
+using detail::BoxKind;
+using detail::MovedLevel;
 using detail::Rgbx;
+using detail::Stencil;
 
 // An edge longer than this many source texels is cut; so is one that crosses this many the other
 // way.
@@ -53,7 +63,7 @@ struct Patches {
     int owner[kBlock];           // cells': the texel that they belong to, by its place in its block
 };
 
-struct Grid {
+struct CellGrid {
     int along_s = 1, along_t = 1;
     [[nodiscard]] int cell_count() const { return along_s * along_t; }
 };
@@ -69,7 +79,7 @@ struct Footprints {
 
     [[nodiscard]] bool cut(int i) const { return cuts_s[i] > 1 || cuts_t[i] > 1; }
     // The cells to cut patch i into.
-    [[nodiscard]] Grid grid(int i) const {
+    [[nodiscard]] CellGrid grid(int i) const {
         double along_s = std::max(1.0, cuts_s[i]), along_t = std::max(1.0, cuts_t[i]);
         const double most = kMostCellsPerSourceTexel * std::max(1.0, area[i]);
         const double excess = std::sqrt(along_s * along_t / most);
@@ -94,7 +104,7 @@ class Target {
     virtual bool whole(int face, int x, int y) const = 0;
     // Appends the used ones among the cells of a texel, from number `first` on, until the block is
     // full; the number to go on from.
-    virtual int cells(int face, int x, int y, Grid grid, int first, int owner,
+    virtual int cells(int face, int x, int y, CellGrid grid, int first, int owner,
                       Patches& out) const = 0;
     // For a sliver that the rim cut off between all cells' centres: the place across the rim.
     virtual void across_rim(int face, int x, int y, int owner, Patches& out) const = 0;
@@ -131,7 +141,7 @@ class TargetOf final : public Target {
                P::covers(point(face, x, y, 0, 1)) && P::covers(point(face, x, y, 1, 1));
     }
 
-    int cells(int face, int x, int y, Grid grid, int first, int owner,
+    int cells(int face, int x, int y, CellGrid grid, int first, int owner,
               Patches& out) const override {
         int next = first;
         for (; next < grid.cell_count() && out.count < kBlock; ++next) {
@@ -151,7 +161,7 @@ class TargetOf final : public Target {
     FacePoint<double> point(int face, int x, int y, double fx, double fy) const {
         return {face, (x + fx) / width_, (y + fy) / height_};
     }
-    void append(Patches& out, const FacePoint<double>& p, Grid grid, int owner) const {
+    void append(Patches& out, const FacePoint<double>& p, CellGrid grid, int owner) const {
         const Vec3d centre = P::direction(p);
         const Tangents<double> tangents = P::tangents(p, centre);
         const int i = out.count++;
@@ -173,40 +183,63 @@ class Source {
   public:
     virtual ~Source() = default;
     virtual void footprints(const Patches& patches, Footprints& out) const = 0;
-    // The mean over each of the first `count` patches as one box; of `uncut` ones only, if asked.
-    virtual void values(const Footprints& footprints, int count, bool uncut, Rgbx* out) const = 0;
+    // The box that stands for a patch.
+    [[nodiscard]] virtual Box box(const Footprints& footprints, int i) const = 0;
+    // What a stencil is worth that reaches over an edge of its face.
+    [[nodiscard]] virtual Rgbx across_edges(const Stencil& stencil,
+                                            const MovedLevel& level) const = 0;
 };
 
 template <class P>
 class SourceOf final : public Source {
   public:
-    SourceOf(const Level& level, Interpolation interpolation)
-        : sampler_(level),
+    SourceOf(int width, int height, Interpolation interpolation)
+        : width_(width),
+          height_(height),
           bicubic_(interpolation == Interpolation::bicubic) {}
 
     void footprints(const Patches& patches, Footprints& __restrict out) const override {
         const int count = patches.count;
-        const double width = sampler_.width(), height = sampler_.height();
+        const double width = width_, height = height_;
         detail::vectorized([&]() MIRRORBALL_INLINE_BODY {
             for (int i = 0, n = count; i < n; ++i) measure(patches, i, width, height, out);
         });
     }
 
-    void values(const Footprints& f, int count, bool uncut, Rgbx* out) const override {
-        detail::vectorized([&]() MIRRORBALL_INLINE_BODY {
-            for (int i = 0; i < count; ++i)
-                if (!uncut || !f.cut(i)) out[i] = value(f, i);
-        });
+    Box box(const Footprints& f, int i) const override {
+        const double larger = std::max(f.width[i], f.height[i]);
+        Box box;
+        box.kind = bicubic_ && larger <= kMagnified ? BoxKind::smooth
+                   : larger <= 2                    ? BoxKind::small
+                                                    : BoxKind::large;
+        box.face = static_cast<std::uint8_t>(f.face[i]);
+        box.s = fixed_point(f.s[i]), box.t = fixed_point(f.t[i]);
+        box.width = fixed_point_size(f.width[i]), box.height = fixed_point_size(f.height[i]);
+        if constexpr (!P::fills_square) box.at_rim = at_rim(f, i);
+        return box;
+    }
+
+    Rgbx across_edges(const Stencil& stencil, const MovedLevel& level) const override {
+        return detail::AcrossEdges<P>(level).weigh(stencil);
     }
 
   private:
-    Rgbx value(const Footprints& f, int i) const {
-        const FacePoint<double> centre{f.face[i], f.s[i], f.t[i]};
-        if (bicubic_ && std::max(f.width[i], f.height[i]) <= kMagnified)
-            return sampler_.bicubic(centre);
-        constexpr double largest = detail::Sampler<P>::kLargestBox;
-        return sampler_.box_mean(centre, std::min(f.width[i], largest),
-                                 std::min(f.height[i], largest));
+    // Whether any of the texels that a box may see is an unused one.
+    bool at_rim(const Footprints& f, int i) const {
+        const double ds = (std::max(f.width[i], 2.0) / 2 + 2) / width_,
+                     dt = (std::max(f.height[i], 2.0) / 2 + 2) / height_;
+        const auto covered = [&](double s, double t) {
+            return P::covers(FacePoint<double>{f.face[i], f.s[i] + s, f.t[i] + t});
+        };
+        return !covered(-ds, -dt) || !covered(ds, -dt) || !covered(-ds, dt) || !covered(ds, dt);
+    }
+
+    static std::uint32_t fixed_point(double s) {
+        return static_cast<std::uint32_t>(std::clamp(s * 0x1p32 + 0.5, 0.0, 0x1p32 - 1));
+    }
+    static std::uint16_t fixed_point_size(double texels) {
+        return static_cast<std::uint16_t>(
+            std::max(1.0, std::min(texels, detail::kLargestBox) / detail::kBoxUnit + 0.5));
     }
 
     // How far an edge reaches along either axis, in source texels; not negative.
@@ -244,47 +277,68 @@ class SourceOf final : public Source {
         out.area[i] = std::sqrt(normal.dot(normal) * inverse);
     }
 
-    detail::Sampler<P> sampler_;
+    int width_, height_;
     bool bicubic_;
 };
 
-// Together
-// ------------------------------------------------------------------------------------------
+// What a plan holds
+// -----------------------------------------------------------------------------------
 
-// One row of the target's texels at a time, a block after the other. Texels that are boxes to the
-// source are done at once; the cells of the others queue up, so that they, too, go by the block.
-class RowResampler {
+// What a row of a patch takes from the source: a box for each texel, and the cells of those that
+// are cut, in the texels' order.
+struct RowPlan {
+    struct Use {
+        int x;  // of the texel, in the patch
+        float weight;
+    };
+    std::vector<Box> texels, cells;
+    std::vector<Use> uses;  // of the cells
+
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof *this + (texels.capacity() + cells.capacity()) * sizeof(Box) +
+               uses.capacity() * sizeof(Use);
+    }
+};
+
+// Makes the plan of a row, a block of texels after the other. Texels that are boxes to the source
+// are done at once; the cells of the others queue up, so that they, too, go by the block.
+class RowPlanner {
   public:
-    RowResampler(const Target& target, const Source& source)
+    // `solid_angles` of the target's texels, empty if all are used.
+    RowPlanner(const Target& target, const Source& source, const std::vector<double>& solid_angles,
+               int target_width)
         : target_(target),
           source_(source),
-          all_whole_(target.all_whole()) {}
+          solid_angles_(solid_angles),
+          target_width_(target_width) {}
 
-    void resample(int face, int y, Image& image, std::span<const double> solid_angles) {
-        for (int x0 = 0; x0 < image.width(); x0 += kBlock) {
-            const int count = std::min(kBlock, image.width() - x0);
-            target_.texels(face, x0, y, count, texels_);
+    void plan(const detail::Patch& patch, int y, RowPlan& row) {
+        row.texels.resize(patch.width);
+        row.cells.clear();
+        row.uses.clear();
+        row_ = &row;
+        for (int x0 = 0; x0 < patch.width; x0 += kBlock) {
+            const int count = std::min(kBlock, patch.width - x0);
+            first_x_ = x0;
+            target_.texels(patch.face, patch.x + x0, patch.y + y, count, texels_);
             source_.footprints(texels_, footprints_);
-            source_.values(footprints_, count, true, values_);
-            for (int i = 0; i < count; ++i) {
-                is_cut_[i] = false;
-                if (solid_angles[x0 + i] > 0) queue_cells(face, x0 + i, y, i);
-            }
-            finish_queue();
             for (int i = 0; i < count; ++i)
-                if (solid_angles[x0 + i] > 0) image.set_rgb(x0 + i, y, value(i));
+                row.texels[x0 + i] = plan_texel(patch.face, patch.x + x0 + i, patch.y + y, i);
+            finish_queue();
+            share_out();
         }
     }
 
   private:
-    void queue_cells(int face, int x, int y, int i) {
-        const bool whole = all_whole_ || target_.whole(face, x, y);
-        if (whole && !footprints_.cut(i)) return;
-        Grid grid = footprints_.grid(i);
+    Box plan_texel(int face, int x, int y, int i) {
+        const bool all_used = solid_angles_.empty();
+        if (!all_used && !(solid_angles_[static_cast<std::size_t>(y) * target_width_ + x] > 0))
+            return {};
+        const bool whole = all_used || target_.whole(face, x, y);
+        if (whole && !footprints_.cut(i)) return source_.box(footprints_, i);
+        CellGrid grid = footprints_.grid(i);
         if (!whole) grid = {std::max(grid.along_s, kRimCells), std::max(grid.along_t, kRimCells)};
-        is_cut_[i] = true;
-        sum_[i] = Vec3d(0.0);
-        weight_[i] = 0;
+        solid_angle_[i] = 0;
         bool any = false;
         for (int next = 0; next < grid.cell_count();) {
             const int before = queue_.count;
@@ -292,37 +346,119 @@ class RowResampler {
             any = any || queue_.count > before;
             if (queue_.count == kBlock) finish_queue();
         }
-        if (any) return;
-        target_.across_rim(face, x, y, i, queue_);
+        if (!any) target_.across_rim(face, x, y, i, queue_);
         if (queue_.count == kBlock) finish_queue();
+        return {};
     }
 
     void finish_queue() {
         source_.footprints(queue_, queue_footprints_);
-        source_.values(queue_footprints_, queue_.count, false, queue_values_);
         for (int k = 0; k < queue_.count; ++k) {
-            const Rgbx& value = queue_values_[k];
             const int i = queue_.owner[k];
-            sum_[i] += Vec3d(value[0], value[1], value[2]) * queue_.solid_angle[k];
-            weight_[i] += queue_.solid_angle[k];
+            row_->cells.push_back(source_.box(queue_footprints_, k));
+            row_->uses.push_back({first_x_ + i, static_cast<float>(queue_.solid_angle[k])});
+            solid_angle_[i] += queue_.solid_angle[k];
         }
         queue_.count = 0;
     }
 
-    [[nodiscard]] Vec3f value(int i) const {
-        if (is_cut_[i]) return Vec3f(sum_[i] / weight_[i]);
-        return {values_[i][0], values_[i][1], values_[i][2]};
+    // Turns solid angles into shares of their texel's.
+    void share_out() {
+        for (std::size_t k = row_->uses.size(); k > 0 && row_->uses[k - 1].x >= first_x_; --k) {
+            RowPlan::Use& use = row_->uses[k - 1];
+            use.weight = static_cast<float>(use.weight / solid_angle_[use.x - first_x_]);
+        }
     }
 
     const Target& target_;
     const Source& source_;
-    bool all_whole_;
+    const std::vector<double>& solid_angles_;
+    int target_width_;
+    RowPlan* row_ = nullptr;
+    int first_x_ = 0;
     Patches texels_, queue_;
     Footprints footprints_, queue_footprints_;
-    Rgbx values_[kBlock], queue_values_[kBlock];
-    bool is_cut_[kBlock];
-    Vec3d sum_[kBlock];
-    double weight_[kBlock];
+    double solid_angle_[kBlock];  // of a cut texel's cells
+};
+
+// Runs the plan of a row, for all repeats of its patch.
+class RowRunner {
+  public:
+    RowRunner(const Source& source, const Level& from, Level& to)
+        : source_(source),
+          to_(to) {
+        for (std::size_t face = 0; face < from.faces.size(); ++face)
+            level_.faces[face] = from.faces[face].at(0, 0);
+        level_.width = from.width(), level_.height = from.height();
+    }
+
+    void run(const detail::Patch& patch, int y, const RowPlan& row) {
+        for (int x = 0; x < patch.width; x += kBlock) {
+            const int count = std::min(kBlock, patch.width - x);
+            detail::make_stencils(&row.texels[x], count, level_.width, level_.height, stencils_);
+            for (const detail::Repeat& repeat : patch.repeats) {
+                weigh(repeat, count, repeat.flip_x);
+                const int to_x = Move::flipped(repeat.flip_x, patch.x + x, count, to_.width());
+                std::copy_n(values_, 3 * count,
+                            to_.faces[repeat.face].at(to_x, row_of(repeat, patch, y)));
+            }
+        }
+        run_cells(patch, y, row);
+    }
+
+  private:
+    using Move = detail::Move;
+
+    [[nodiscard]] int row_of(const detail::Repeat& repeat, const detail::Patch& patch, int y) const {
+        return Move::flipped(repeat.flip_y, patch.y + y, 1, to_.height());
+    }
+
+    // A texel's cells may go on in the next block.
+    void run_cells(const detail::Patch& patch, int y, const RowPlan& row) {
+        sums_.assign(patch.repeats.size(), Vec3d(0.0));
+        const int cell_count = static_cast<int>(row.cells.size());
+        for (int first = 0; first < cell_count; first += kBlock) {
+            const int count = std::min(kBlock, cell_count - first);
+            detail::make_stencils(&row.cells[first], count, level_.width, level_.height, stencils_);
+            for (std::size_t r = 0; r < patch.repeats.size(); ++r) {
+                const detail::Repeat& repeat = patch.repeats[r];
+                weigh(repeat, count, false);
+                Image& image = to_.faces[repeat.face];
+                const int to_y = row_of(repeat, patch, y);
+                for (int k = 0; k < count; ++k) {
+                    const RowPlan::Use& use = row.uses[first + k];
+                    const float* value = values_ + 3 * k;
+                    sums_[r] += Vec3d(value[0], value[1], value[2]) * use.weight;
+                    const bool last =
+                        first + k + 1 == cell_count || row.uses[first + k + 1].x != use.x;
+                    if (!last) continue;
+                    const int to_x = Move::flipped(repeat.flip_x, patch.x + use.x, 1, to_.width());
+                    image.set_rgb(to_x, to_y, Vec3f(sums_[r]));
+                    sums_[r] = Vec3d(0.0);
+                }
+            }
+        }
+    }
+
+    // Values of the first stencils for a repeat.
+    void weigh(const detail::Repeat& repeat, int count, bool reversed) {
+        level_.moves = repeat.source;
+        int across[kBlock];
+        const int across_count =
+            detail::weigh(stencils_, count, reversed, level_, values_, across);
+        for (int k = 0; k < across_count; ++k) {
+            const int i = across[k];
+            const Rgbx value = source_.across_edges(stencils_[i], level_);
+            std::memcpy(values_ + 3 * (reversed ? count - 1 - i : i), &value, 3 * sizeof(float));
+        }
+    }
+
+    const Source& source_;
+    Level& to_;
+    MovedLevel level_;
+    Stencil stencils_[kBlock];
+    float values_[3 * kBlock + 1];
+    std::vector<Vec3d> sums_;  // per repeat
 };
 
 // The target's axes in the source's frame.
@@ -330,34 +466,150 @@ Axes relative_axes(const Axes& target, const Axes& source) {
     return {source.to_map(target.x), source.to_map(target.y), source.to_map(target.z)};
 }
 
+void copy_level(const Level& from, Level& to) {
+    const int height = from.height();
+    detail::parallel_for(static_cast<std::int64_t>(from.faces.size()) * height,
+                         [&](std::int64_t i) {
+                             const int face = static_cast<int>(i / height),
+                                       y = static_cast<int>(i % height);
+                             std::ranges::copy(from.faces[face].row(y),
+                                               to.faces[face].row(y).begin());
+                         });
+}
+
+void check_shape(const char* what, const EnvironmentMap& map, const MapShape& expected) {
+    if (map.level_count() > 0 && shape_of(map) == expected) return;
+    throw Error(Errc::usage,
+                map.level_count() == 0
+                    ? fmt::format("{} of a resampling has no levels", what)
+                    : fmt::format("{} of a resampling is {} of size {} in axes {}; its plan is for "
+                                  "{} of size {} in axes {}",
+                                  what, name(map.projection), map.width(), to_string(map.axes),
+                                  name(expected.projection), expected.size,
+                                  to_string(expected.axes)));
+}
+
 }  // namespace
+
+MapShape shape_of(const EnvironmentMap& map) {
+    return {map.projection, map.width(), map.axes};
+}
+
+// All that both ways of resampling share: rows of patches, planned and run one by one.
+class Resampler::Plan {
+  public:
+    Plan(const MapShape& source, const MapShape& target, Interpolation interpolation)
+        : source_shape_(source),
+          target_shape_(target) {
+        if (copies()) return;
+        const detail::Grid from = grid(source), to = grid(target);
+        const Axes to_source = relative_axes(target.axes, source.axes);
+        target_width_ = to.width;
+        target_ = visit(target.projection, [&](auto p) -> std::unique_ptr<Target> {
+            return std::make_unique<TargetOf<decltype(p)>>(to.width, to.height, to_source);
+        });
+        source_ = visit(source.projection, [&](auto p) -> std::unique_ptr<Source> {
+            return std::make_unique<SourceOf<decltype(p)>>(from.width, from.height, interpolation);
+        });
+        if (!target_->all_whole())
+            solid_angles_ = solid_angle_table(target.projection, to.width, to.height);
+        patches_ = detail::find_patches(to, from, to_source);
+        for (std::size_t p = 0; p < patches_.size(); ++p)
+            for (int y = 0; y < patches_[p].height; ++y) row_places_.push_back({p, y});
+    }
+
+    void keep_rows() {
+        rows_.resize(row_places_.size());
+        detail::parallel_for(static_cast<std::int64_t>(rows_.size()), [&](std::int64_t i) {
+            plan_row(i, rows_[i]);
+            rows_[i].cells.shrink_to_fit();
+            rows_[i].uses.shrink_to_fit();
+        });
+    }
+
+    void run(const EnvironmentMap& source, EnvironmentMap& result,
+             const Progress& progress) const {
+        check_shape("the source", source, source_shape_);
+        check_shape("the result", result, target_shape_);
+        if (copies()) return copy_level(source.levels[0], result.levels[0]);
+        detail::parallel_for(
+            static_cast<std::int64_t>(row_places_.size()),
+            [&](std::int64_t i) {
+                const auto [p, y] = row_places_[i];
+                RowRunner runner(*source_, source.levels[0], result.levels[0]);
+                if (!rows_.empty()) return runner.run(patches_[p], y, rows_[i]);
+                RowPlan row;
+                plan_row(i, row);
+                runner.run(patches_[p], y, row);
+            },
+            progress);
+    }
+
+    [[nodiscard]] EnvironmentMap make_result() const {
+        EnvironmentMap result = make_environment_map(target_shape_.projection, target_shape_.size);
+        result.axes = target_shape_.axes;
+        return result;
+    }
+
+    [[nodiscard]] std::size_t bytes() const {
+        std::size_t sum = sizeof *this + solid_angles_.capacity() * sizeof(double) +
+                          row_places_.capacity() * sizeof(RowPlace);
+        for (const RowPlan& row : rows_) sum += row.bytes();
+        return sum;
+    }
+
+  private:
+    struct RowPlace {
+        std::size_t patch;
+        int y;
+    };
+
+    static detail::Grid grid(const MapShape& shape) {
+        return {shape.projection, shape.size, shape.size / aspect(shape.projection)};
+    }
+    [[nodiscard]] bool copies() const { return source_shape_ == target_shape_; }
+
+    void plan_row(std::int64_t i, RowPlan& row) const {
+        const auto [p, y] = row_places_[i];
+        RowPlanner(*target_, *source_, solid_angles_, target_width_).plan(patches_[p], y, row);
+    }
+
+    MapShape source_shape_, target_shape_;
+    std::unique_ptr<Target> target_;
+    std::unique_ptr<Source> source_;
+    int target_width_ = 0;
+    std::vector<double> solid_angles_;  // where the target has unused texels
+    std::vector<detail::Patch> patches_;
+    std::vector<RowPlace> row_places_;
+    std::vector<RowPlan> rows_;  // empty: planned as they are run
+};
+
+Resampler::Resampler(const MapShape& source, const MapShape& target, Interpolation interpolation) {
+    auto plan = std::make_shared<Plan>(source, target, interpolation);
+    plan->keep_rows();
+    plan_ = std::move(plan);
+}
+
+EnvironmentMap Resampler::operator()(const EnvironmentMap& source, const Progress& progress) const {
+    EnvironmentMap result = plan_->make_result();
+    plan_->run(source, result, progress);
+    return result;
+}
+
+void Resampler::operator()(const EnvironmentMap& source, EnvironmentMap& result,
+                           const Progress& progress) const {
+    plan_->run(source, result, progress);
+}
+
+std::size_t Resampler::bytes() const {
+    return plan_->bytes();
+}
 
 EnvironmentMap resample(const EnvironmentMap& source, Projection projection, int size,
                         const Axes& axes, const ResampleOptions& options) {
-    EnvironmentMap result = make_environment_map(projection, size);
-    result.axes = axes;
-    if (source.projection == projection && source.width() == size && source.axes == axes) {
-        result.levels[0] = source.levels[0];
-        return result;
-    }
-    const int width = result.width(), height = result.height();
-    const Axes to_source = relative_axes(axes, source.axes);
-    const auto target = visit(projection, [&](auto p) -> std::unique_ptr<Target> {
-        return std::make_unique<TargetOf<decltype(p)>>(width, height, to_source);
-    });
-    const auto reader = visit(source.projection, [&](auto p) -> std::unique_ptr<Source> {
-        return std::make_unique<SourceOf<decltype(p)>>(source.levels[0], options.interpolation);
-    });
-    const std::vector<double> solid_angles = solid_angle_table(projection, width, height);
-    detail::parallel_for(
-        std::int64_t{face_count(projection)} * height,
-        [&](std::int64_t i) {
-            const int face = static_cast<int>(i / height), y = static_cast<int>(i % height);
-            const std::span row(solid_angles.data() + static_cast<std::size_t>(y) * width,
-                                static_cast<std::size_t>(width));
-            RowResampler(*target, *reader).resample(face, y, result.levels[0].faces[face], row);
-        },
-        options.progress);
+    const Resampler::Plan plan(shape_of(source), {projection, size, axes}, options.interpolation);
+    EnvironmentMap result = plan.make_result();
+    plan.run(source, result, options.progress);
     return result;
 }
 

@@ -23,8 +23,9 @@ EnvironmentMap fast(const EnvironmentMap& source, const PrefilterTarget& target)
     return prefilter(source, std::span(&target, 1))[0];
 }
 
-const char* const kLobes[] = {"diffuse",  "phong:10", "phong:100", "phong:1000", "blinn-phong:400",
-                              "ggx:0.25", "ggx:0.5",  "ggx:0.75",  "ggx:1"};
+const char* const kLobes[] = {"diffuse",         "phong:10",    "phong:100", "phong:1000",
+                              "blinn-phong:400", "ggx:0.25",    "ggx:0.5",   "ggx:0.75",
+                              "ggx:1",           "charlie:0.3", "charlie:1"};
 
 // lambda_1 / lambda_0: how much of a linear ramp a lobe lets through. By quadrature where there is
 // no closed form.

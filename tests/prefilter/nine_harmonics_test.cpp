@@ -1,4 +1,4 @@
-#include <mirrorball/harmonics.h>
+#include <mirrorball/nine_harmonics.h>
 
 #include <gtest/gtest.h>
 
@@ -38,14 +38,14 @@ std::vector<Vec3d> directions(int count) {
 }
 
 // Midpoint sums: the error falls with the square of the texel, 90 / 64 degrees here.
-TEST(Harmonics, BasisIsOrthonormalInEveryProjection) {
+TEST(NineHarmonics, BasisIsOrthonormalInEveryProjection) {
     for (std::size_t i = 0; i < kProjectionCount; ++i) {
         const auto projection = static_cast<Projection>(i);
-        for (int k = 0; k < kHarmonicCount; ++k) {
+        for (int k = 0; k < kNineHarmonics; ++k) {
             const auto map = filled(projection, projection == Projection::cube ? 64 : 256,
-                                    [k](const Vec3d& d) { return Vec3d(harmonic_basis(d)[k]); });
-            const Harmonics found = analyse(map);
-            for (int j = 0; j < kHarmonicCount; ++j) {
+                                    [k](const Vec3d& d) { return Vec3d(nine_harmonic_basis(d)[k]); });
+            const NineHarmonics found = analyse_nine(map);
+            for (int j = 0; j < kNineHarmonics; ++j) {
                 EXPECT_NEAR(found.coefficients[j].x, j == k ? 1 : 0, 2e-3)
                     << name(projection) << " " << k << " " << j;
             }
@@ -53,20 +53,20 @@ TEST(Harmonics, BasisIsOrthonormalInEveryProjection) {
     }
 }
 
-TEST(Harmonics, UniformLightHasOneCoefficient) {
-    const Harmonics found =
-        analyse(filled(Projection::cube, 16, [](const Vec3d&) { return Vec3d(1, 2, 0.5); }));
+TEST(NineHarmonics, UniformLightHasOneCoefficient) {
+    const NineHarmonics found =
+        analyse_nine(filled(Projection::cube, 16, [](const Vec3d&) { return Vec3d(1, 2, 0.5); }));
     EXPECT_NEAR(found.coefficients[0].y, 2 * std::sqrt(4 * kPi), 1e-12);
-    for (int i = 1; i < kHarmonicCount; ++i) EXPECT_NEAR(found.coefficients[i].y, 0, 1e-12);
+    for (int i = 1; i < kNineHarmonics; ++i) EXPECT_NEAR(found.coefficients[i].y, 0, 1e-12);
     for (const Vec3d& n : directions(20)) {
         EXPECT_NEAR(evaluate(convolved_with_cosine(found), n).y, 2 * kPi, 1e-11);
     }
 }
 
 // Light that falls from above only, L = y: its irradiance is 2 pi / 3 y, by Funk and Hecke.
-TEST(Harmonics, ConvolvesBandsByTheClampedCosine) {
-    const Harmonics found =
-        analyse(filled(Projection::equirect, 256, [](const Vec3d& d) { return Vec3d(d.y); }));
+TEST(NineHarmonics, ConvolvesBandsByTheClampedCosine) {
+    const NineHarmonics found =
+        analyse_nine(filled(Projection::equirect, 256, [](const Vec3d& d) { return Vec3d(d.y); }));
     for (const Vec3d& n : directions(20)) {
         EXPECT_NEAR(evaluate(convolved_with_cosine(found), n).x, 2 * kPi / 3 * n.y, 1e-3);
     }
@@ -74,11 +74,11 @@ TEST(Harmonics, ConvolvesBandsByTheClampedCosine) {
 
 // Ramamoorthi and Hanrahan 2001, their published coefficients of Grace Cathedral (red) put into
 // their Eq. 13: sign, order and scale are theirs. c1 .. c5 are printed with six digits.
-TEST(Harmonics, IrradianceIsThePublishedPolynomial) {
+TEST(NineHarmonics, IrradianceIsThePublishedPolynomial) {
     const double c1 = 0.429043, c2 = 0.511664, c3 = 0.743125, c4 = 0.886227, c5 = 0.247708;
     const double grace[] = {.79, .39, -.34, -.29, -.11, -.26, -.16, .56, .21};
-    Harmonics radiance;
-    for (int i = 0; i < kHarmonicCount; ++i) radiance.coefficients[i] = Vec3d(grace[i]);
+    NineHarmonics radiance;
+    for (int i = 0; i < kNineHarmonics; ++i) radiance.coefficients[i] = Vec3d(grace[i]);
     const auto& [l00, l1_1, l10, l11, l2_2, l2_1, l20, l21, l22] = grace;
     for (const Vec3d& n : directions(50)) {
         const double x = n.x, y = n.y, z = n.z;

@@ -1,0 +1,44 @@
+// Spherical harmonics: an environment in nine numbers per channel, enough for its irradiance.
+//
+// The basis is the real, orthonormal one of Ramamoorthi and Hanrahan 2001, "An Efficient
+// Representation for Irradiance Environment Maps", without the Condon-Shortley sign, on our world's
+// axes (right-handed, +Y up), with (x, y, z) the unit direction:
+//
+//     Y_0,0 = sqrt(1/4pi)
+//     Y_1,-1 = sqrt(3/4pi) y        Y_1,0 = sqrt(3/4pi) z         Y_1,1 = sqrt(3/4pi) x
+//     Y_2,-2 = sqrt(15/4pi) x y     Y_2,-1 = sqrt(15/4pi) y z     Y_2,0 = sqrt(5/16pi) (3 z^2 - 1)
+//     Y_2,1 = sqrt(15/4pi) x z      Y_2,2 = sqrt(15/16pi) (x^2 - y^2)
+//
+// Coefficients are stored in this order: (l, m) at l^2 + l + m.
+#pragma once
+
+#include <array>
+
+#include <mirrorball/environment_map.h>
+
+namespace mirrorball {
+
+inline constexpr int kNineHarmonics = 9;
+
+struct NineHarmonics {
+    std::array<Vec3d, kNineHarmonics> coefficients;
+
+    NineHarmonics() { coefficients.fill(Vec3d(0, 0, 0)); }  // Imath's vectors begin undefined
+};
+
+/// The nine basis functions. \pre |direction| == 1
+[[nodiscard]] std::array<double, kNineHarmonics> nine_harmonic_basis(const Vec3d& direction);
+
+/// Radiance's coefficients, L_lm = integral of L Y_lm dw: a sum in double over every used texel, by
+/// its exact solid angle. A uniform environment of radiance L has L_00 = sqrt(4 pi) L and no
+/// others, to rounding and, for the others, to the square of the texels' size.
+[[nodiscard]] NineHarmonics analyse_nine(const EnvironmentMap& map, int level = 0);
+
+/// Irradiance's coefficients from radiance's: E_lm = A_l L_lm, A = pi, 2 pi / 3, pi / 4. What the
+/// bands above carry is at most a few percent of a diffuse map, more where one small light is all.
+[[nodiscard]] NineHarmonics convolved_with_cosine(const NineHarmonics& radiance);
+
+/// The sum of coefficient times basis function. \pre |direction| == 1
+[[nodiscard]] Vec3d evaluate(const NineHarmonics& harmonics, const Vec3d& direction);
+
+}  // namespace mirrorball

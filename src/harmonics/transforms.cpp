@@ -1,0 +1,158 @@
+#include "harmonics/transforms.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/flush_denormals.h"
+#include "core/parallel.h"
+
+namespace mirrorball::detail {
+namespace {
+
+// Values of a grid per value that its bands need. Eight taps then interpolate a lobe of GGX's
+// spectrum to 2e-5 and a Gaussian one to 6e-5 of its rms; few bands can have more for nothing.
+constexpr double kOversampling = 1.5, kOversamplingOfFewBands = 2.2;
+constexpr int kFewBands = 160;
+
+int grid_ring_count(int band_count) {
+    const double oversampling = band_count < kFewBands ? kOversamplingOfFewBands : kOversampling;
+    const int least = std::max(32, static_cast<int>(std::ceil(oversampling * band_count)));
+    const int whole = 2 * ring_lane_count();
+    return (least + whole - 1) / whole * whole;
+}
+
+RingTransform grid_transform(std::shared_ptr<const LegendreTable> table, int band_count) {
+    const int ring_count = grid_ring_count(band_count);
+    const double oversampling = band_count < kFewBands ? kOversamplingOfFewBands : kOversampling;
+    const int least = std::max(64, static_cast<int>(std::ceil(2 * oversampling * band_count)));
+    return RingTransform(std::move(table), band_count, ring_count, good_fourier_length(least));
+}
+
+// A panorama whose rows are rings of latitude, north first.
+bool is_ring_grid(const MapShape& shape) {
+    if (shape.projection != Projection::equirect) return false;
+    if ((shape.axes.y - Vec3d(0, 1, 0)).length() > 1e-12) return false;
+    // lengths with large prime factors take longer than spreading
+    return largest_prime_factor(shape.size) <= 61;
+}
+
+// Of an upright panorama: texel column k is at u = (k + 1/2) / width.
+Columns panorama_columns(const MapShape& shape) {
+    const auto psi = [&](double u) {
+        const Vec3d d = shape.axes.to_world(Equirect::direction(FacePoint<double>{0, u, 0.5}));
+        return std::atan2(d.x, d.z);
+    };
+    const double first = psi(0.5 / shape.size);
+    const double turn = std::remainder(psi(0.5 / shape.size + 0.1) - first, 2 * kPi);
+    return {first, turn > 0 ? 1 : -1};
+}
+
+std::array<GroupValues, 3> make_planes(const RingTransform& rings) {
+    return {rings.make_values(), rings.make_values(), rings.make_values()};
+}
+
+EnvironmentMap empty_map(const MapShape& shape) {
+    EnvironmentMap map = make_environment_map(shape.projection, shape.size);
+    map.axes = shape.axes;
+    return map;
+}
+
+}  // namespace
+
+AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
+                           int band_count, std::span<const double> power)
+    : shape_(shape), band_count_(band_count) {
+    if (is_ring_grid(shape)) {
+        const int width = shape.size, height = shape.size / 2;
+        rings_.emplace(std::move(table), band_count, height, width);
+        columns_ = panorama_columns(shape);
+        ring_weights_.assign(
+            static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(), 0.0f);
+        for (int j = 0; j < (height + 1) / 2; ++j) {
+            const double cap = std::sin(kPi * (2 * j + 1) / (2.0 * height));
+            ring_weights_[j] = static_cast<float>(2 * cap * std::sin(kPi / (2.0 * height)) * 2 *
+                                                  kPi / width);
+        }
+        return;
+    }
+    rings_.emplace(grid_transform(std::move(table), band_count));
+    ring_weights_.assign(static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(),
+                         1.0f);
+    if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
+        cube_.emplace(shape.size, *rings_, power);
+    else
+        grid_.emplace(empty_map(shape), *rings_, power);
+}
+
+void AnalysisPlan::run(const std::vector<Image>& faces, Harmonics& harmonics) const {
+    RingSpectra spectra = rings_->make_spectra();
+    CubeGrid::Buffers buffers;
+    MapGrid::Buffer buffer;
+    if (cube_) {
+        buffers = cube_->make_buffers();
+        cube_->spread_texels(faces, placement_, buffers);
+    } else if (grid_) {
+        buffer = grid_->make_buffer();
+        grid_->spread_texels(faces, buffer);
+    }
+    parallel_for(rings_->group_count(), [&](std::int64_t i) {
+        const FlushDenormals flush;
+        const int group = static_cast<int>(i);
+        std::array<GroupValues, 3> planes = make_planes(*rings_);
+        GroupValues scratch = rings_->make_values();
+        if (cube_)
+            cube_->gather_group(group, buffers, planes);
+        else if (grid_)
+            grid_->gather_group(group, *rings_, buffer, planes);
+        else
+            rings_->load_rows(group, faces.front().values().data(), planes);
+        rings_->to_spectra(group, planes, scratch, columns_, ring_weights_, spectra);
+    });
+    rings_->analyse(spectra, harmonics);
+}
+
+SynthesisPlan::SynthesisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
+                             int band_count, std::span<const double> power)
+    : shape_(shape), rings_(grid_transform(std::move(table), band_count)) {
+    if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
+        cube_.emplace(shape.size, *rings_, power);
+    else
+        grid_.emplace(empty_map(shape), *rings_, power);
+}
+
+std::vector<double> SynthesisPlan::pair_colatitudes() const {
+    std::vector<double> colatitudes(rings_->ring_count() / 2);
+    for (std::size_t j = 0; j < colatitudes.size(); ++j)
+        colatitudes[j] = (static_cast<double>(j) + 0.5) * kPi / rings_->ring_count();
+    return colatitudes;
+}
+
+void SynthesisPlan::run(const Harmonics& harmonics, std::span<const float> zonal,
+                        std::span<const float> ring_weights, const Vec3f& lowest,
+                        const Vec3f& highest, std::vector<Image>& faces) const {
+    RingSpectra spectra = rings_->make_spectra();
+    rings_->synthesise(harmonics, zonal, spectra);
+    CubeGrid::Buffers buffers;
+    MapGrid::Buffer buffer;
+    if (cube_)
+        buffers = cube_->make_buffers();
+    else
+        buffer = grid_->make_buffer();
+    parallel_for(rings_->group_count(), [&](std::int64_t i) {
+        const FlushDenormals flush;
+        const int group = static_cast<int>(i);
+        std::array<GroupValues, 3> planes = make_planes(*rings_);
+        GroupValues scratch = rings_->make_values();
+        rings_->from_spectra(group, spectra, ring_weights, planes, scratch);
+        if (cube_)
+            cube_->scatter_group(group, planes, buffers);
+        else
+            grid_->scatter_group(group, planes, buffer);
+    });
+    if (cube_)
+        cube_->make_texels(buffers, placement_, lowest, highest, faces);
+    else
+        grid_->make_texels(buffer, lowest, highest, faces);
+}
+
+}  // namespace mirrorball::detail

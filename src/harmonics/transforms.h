@@ -1,0 +1,69 @@
+// From any map to coefficients and back: which grid each shape of map goes through.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include <mirrorball/harmonics.h>
+
+#include "harmonics/cube_grid.h"
+#include "harmonics/map_grid.h"
+#include "harmonics/ring_transform.h"
+
+namespace mirrorball::detail {
+
+/// Sums a map's texels, as points at their centres times their exact solid angles, into
+/// coefficients about the world's +Y.
+///
+/// A panorama that stands upright is itself a grid of rings. Texels of all other maps are spread
+/// onto one, so that its rings give the same sums: by the weights that would interpolate a function
+/// with degrees' power `power` there (taps.h).
+class AnalysisPlan {
+  public:
+    AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table, int band_count,
+                 std::span<const double> power);
+
+    /// \pre map has the plan's shape
+    void run(const std::vector<Image>& faces, Harmonics& harmonics) const;
+
+    [[nodiscard]] const MapShape& shape() const { return shape_; }
+    [[nodiscard]] int band_count() const { return band_count_; }
+
+  private:
+    MapShape shape_;
+    int band_count_;
+    std::optional<RingTransform> rings_;
+    Columns columns_;
+    std::vector<float> ring_weights_;
+    CubePlacement placement_{};
+    std::optional<CubeGrid> cube_;
+    std::optional<MapGrid> grid_;
+};
+
+/// Coefficients to the texels of a map.
+class SynthesisPlan {
+  public:
+    /// Degrees below `band_count`, with power `power`.
+    SynthesisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table, int band_count,
+                  std::span<const double> power);
+
+    [[nodiscard]] const MapShape& shape() const { return shape_; }
+    [[nodiscard]] int band_count() const { return rings_->band_count(); }
+    /// Colatitudes of the pairs of rings that `ring_weights` of run() multiplies.
+    [[nodiscard]] std::vector<double> pair_colatitudes() const;
+
+    /// Texels are clamped to [lowest, highest] per channel. \pre harmonics has the bands
+    void run(const Harmonics& harmonics, std::span<const float> zonal,
+             std::span<const float> ring_weights, const Vec3f& lowest, const Vec3f& highest,
+             std::vector<Image>& faces) const;
+
+  private:
+    MapShape shape_;
+    std::optional<RingTransform> rings_;
+    CubePlacement placement_{};
+    std::optional<CubeGrid> cube_;
+    std::optional<MapGrid> grid_;
+};
+
+}  // namespace mirrorball::detail

@@ -1,0 +1,82 @@
+// Reading a level across face edges and poles: the slow and general way to weigh a stencil.
+//
+// A face's texels are met in the order in which they lie; a texel asked for beyond an edge is the
+// one that the projection's wrap() finds there.
+#pragma once
+
+#include <mirrorball/projection.h>
+
+#include "resample/rgbx.h"
+#include "resample/weigh.h"
+
+namespace mirrorball::detail {
+
+template <class P>
+class AcrossEdges {
+  public:
+    /// \pre level outlives this
+    explicit AcrossEdges(const MovedLevel& level)
+        : level_(level),
+          width_(level.width),
+          height_(level.height) {}
+
+    [[nodiscard]] Rgbx weigh(const Stencil& stencil) const {
+        if (stencil.kind == BoxKind::smooth) return smooth(stencil);
+        Rgbx sum{};
+        for (int j = 0; j < stencil.row_count; ++j) {
+            if (stencil.rows[j] == 0) continue;
+            Rgbx row{};
+            for (int i = 0; i < stencil.column_count; ++i)
+                if (stencil.columns[i] != 0) row += texel(stencil, i, j) * stencil.columns[i];
+            sum += row * stencil.rows[j];
+        }
+        return sum;
+    }
+
+  private:
+    Rgbx smooth(const Stencil& stencil) const {
+        Rgbx columns[4];
+        for (int i = 0; i < 4; ++i)
+            columns[i] = monotone_cubic(texel(stencil, i, 0), texel(stencil, i, 1),
+                                        texel(stencil, i, 2), texel(stencil, i, 3), stencil.rows);
+        return monotone_cubic(columns[0], columns[1], columns[2], columns[3], stencil.columns);
+    }
+
+    // Column i and row j of a stencil, where the level's move carries them.
+    Rgbx texel(const Stencil& stencil, int i, int j) const {
+        const Move& move = level_.moves[stencil.face];
+        const int x = Move::flipped(move.flip_s, stencil.column + i, 1, width_),
+                  y = Move::flipped(move.flip_t, stencil.row + j, 1, height_);
+        return fetch(move.face, x + move.quarters * (width_ / 4), y);
+    }
+
+    // Any texel up to half a face beyond the edges; along a panorama's rows, any.
+    Rgbx fetch(int face, int x, int y) const {
+        const bool beside = x < 0 || x >= width_, above = y < 0 || y >= height_;
+        if constexpr (P::three_at_corners) {
+            if (beside && above) return beyond_corner(face, x, y);
+        }
+        FacePoint<double> p{face, (x + 0.5) / width_, (y + 0.5) / height_};
+        if (beside || above || !P::covers(p)) p = P::wrap(p);
+        const std::ptrdiff_t row = index(p.t, height_);
+        return load_rgbx(level_.faces[p.face] + 3 * (row * width_ + index(p.s, width_)));
+    }
+
+    // Where three faces meet there is no fourth texel: the mean of the three stands for it, so that
+    // all of them agree at the corner.
+    Rgbx beyond_corner(int face, int x, int y) const {
+        const int near_x = x < 0 ? 0 : width_ - 1, near_y = y < 0 ? 0 : height_ - 1;
+        return (fetch(face, near_x, near_y) + fetch(face, x, near_y) + fetch(face, near_x, y)) *
+               (1.0f / 3);
+    }
+
+    static int index(double s, int size) {
+        const int i = static_cast<int>(s * size);
+        return i < 0 ? 0 : i >= size ? size - 1 : i;
+    }
+
+    const MovedLevel& level_;
+    int width_, height_;
+};
+
+}  // namespace mirrorball::detail
