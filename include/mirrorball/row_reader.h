@@ -71,12 +71,12 @@ class RowReader {
                                                       const MapReadOptions& options,
                                                       std::uint64_t most_bytes);
 
-/// What statistics() says of the whole map, to rounding. Reads all rows, of which none may have been
-/// read.
+/// What statistics() says of the whole map, to rounding. Reads all rows, of which none may have
+/// been read.
 [[nodiscard]] LevelStatistics statistics(RowReader& rows);
 
-/// The map made `factor` times smaller: each texel the mean of those under it, by exact solid angle.
-/// Holds little more than the result. Reads all rows, of which none may have been read.
+/// The map made `factor` times smaller: each texel the mean of those under it, by exact solid
+/// angle. Holds little more than the result. Reads all rows, of which none may have been read.
 /// \throws Error(Errc::usage) unless factor is at least 1 and divides the height
 [[nodiscard]] EnvironmentMap reduced(RowReader& rows, int factor);
 /// The least factor that makes a map of at most `most_bytes`, what reduced() holds beside it

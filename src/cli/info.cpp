@@ -107,18 +107,18 @@ struct FileFacts {
 
 FileFacts facts_of(const LoadedMap& loaded) {
     const EnvironmentMap& map = loaded.map;
-    FileFacts facts{loaded.format, loaded.stored,   map.projection, map.axes,
-                    {},            loaded.metadata, loaded.notes};
+    FileFacts facts{loaded.format,   loaded.stored, map.projection, map.axes, {},
+                    loaded.metadata, loaded.notes};
     for (int i = 0; i < map.level_count(); ++i)
-        facts.levels.push_back({map.width(i), map.height(i), map.levels[i].lobe,
-                                statistics(map, i), seam_ratio(map, i)});
+        facts.levels.push_back({map.width(i), map.height(i), map.levels[i].lobe, statistics(map, i),
+                                seam_ratio(map, i)});
     return facts;
 }
 
 FileFacts facts_of(RowReader& rows) {
     const LevelStatistics found = statistics(rows);  // first, for what it makes the notes say
-    FileFacts facts{rows.format(), rows.stored(),   Projection::equirect, rows.axes(),
-                    {},            rows.metadata(), rows.notes()};
+    FileFacts facts{rows.format(),   rows.stored(), Projection::equirect, rows.axes(), {},
+                    rows.metadata(), rows.notes()};
     facts.levels.push_back({rows.width(), rows.height(), rows.lobe(), found, std::nullopt});
     facts.notes.emplace_back("was read row by row, as --memory is less than the whole takes");
     return facts;

@@ -8,8 +8,8 @@
 
 #include <mirrorball/builtin.h>
 #include <mirrorball/error.h>
-#include <mirrorball/row_reader.h>
 #include <mirrorball/prefilter.h>
+#include <mirrorball/row_reader.h>
 
 #include "output.h"
 
@@ -121,7 +121,8 @@ void add_shared_options(Command& command, Shared& shared) {
         {{"--json", "", "print one JSON object", flag(shared.json)},
          {"--threads", "N", "threads to use [all; the result is the same for any number]",
           whole_number(shared.threads, 1, 1024)},
-         {"--memory", "BYTES", "reduce or refuse what needs more, as 512M or 2G [3/4 of the machine's]",
+         {"--memory", "BYTES",
+          "reduce or refuse what needs more, as 512M or 2G [3/4 of the machine's]",
           parsed(shared.memory_limit, parse_memory)},
          {"--quiet", "", "no progress, no notes, no line about what was written",
           flag(shared.quiet)}});

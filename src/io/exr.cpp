@@ -535,9 +535,8 @@ class ExrRows : public RowSource {
         header.stored = contents.stored;
         header.metadata = std::move(contents.metadata);
         header.notes = std::move(contents.notes);
-        piece_rows_ = part.hasTileDescription()
-                          ? static_cast<int>(part.tileDescription().ySize)
-                          : lines_per_chunk(part.compression());
+        piece_rows_ = part.hasTileDescription() ? static_cast<int>(part.tileDescription().ySize)
+                                                : lines_per_chunk(part.compression());
         piece_rows_ = std::min(piece_rows_, header.height);
         texel_bytes_ = texel_bytes(part.channels());
     }
@@ -563,14 +562,14 @@ class ExrRows : public RowSource {
   private:
     void read_lines(int count, std::span<float> values) {
         if (!readers_) readers_.emplace(file_, picture_.part);
-        readers_->for_each_range(done_, count, piece_rows_,
-                                [&](Imf::InputPart& part, int first, int last) {
-            const Imf::FrameBuffer buffer = frame_buffer(
-                values.data() + static_cast<std::size_t>(first - done_) * values.size() / count,
-                header.width, picture_, {window_.min.x, window_.min.y + first}, last - first);
-            part.setFrameBuffer(buffer);
-            part.readPixels(window_.min.y + first, window_.min.y + last - 1);
-        });
+        readers_->for_each_range(
+            done_, count, piece_rows_, [&](Imf::InputPart& part, int first, int last) {
+                const Imf::FrameBuffer buffer = frame_buffer(
+                    values.data() + static_cast<std::size_t>(first - done_) * values.size() / count,
+                    header.width, picture_, {window_.min.x, window_.min.y + first}, last - first);
+                part.setFrameBuffer(buffer);
+                part.readPixels(window_.min.y + first, window_.min.y + last - 1);
+            });
     }
 
     InputFile& file_;

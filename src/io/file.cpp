@@ -215,8 +215,7 @@ std::span<const std::byte> InputFile::look_ahead(std::size_t count) {
     const std::size_t wanted = std::min<std::uint64_t>(count, remaining());
     const bool begins_there =
         position_ >= memory_start_ && position_ - memory_start_ <= memory_.size();
-    const bool there =
-        begins_there && memory_.size() - (position_ - memory_start_) >= wanted;
+    const bool there = begins_there && memory_.size() - (position_ - memory_start_) >= wanted;
     if (!there) fill(wanted);
     return memory_.subspan(static_cast<std::size_t>(position_ - memory_start_), wanted);
 }
@@ -242,7 +241,8 @@ void InputFile::fill(std::size_t least) {
     if (buffer_.size() < std::max(usual, least)) buffer_.resize(std::max(usual, least));
     const ssize_t count = read_fully(descriptor_, buffer_, position_);
     if (count < 0) fail(fmt::format("cannot be read ({})", reason(errno)));
-    if (count < static_cast<ssize_t>(least)) fail(fmt::format("became shorter than {} bytes while it was read", size_));
+    if (count < static_cast<ssize_t>(least))
+        fail(fmt::format("became shorter than {} bytes while it was read", size_));
     memory_ = std::span<const std::byte>(buffer_).first(static_cast<std::size_t>(count));
     memory_start_ = position_;
 }

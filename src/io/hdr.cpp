@@ -530,7 +530,14 @@ void write(OutputFile& file, const ContentsView& contents, const WriteOptions&) 
 
 }  // namespace
 
-const Codec kHdr{"Radiance HDR", {".hdr", ".rgbe", ".pic"}, {TexelFormat::rgbe8}, recognises, read,
-                 write, false, false, open_rows};
+const Codec kHdr{"Radiance HDR",
+                 {".hdr", ".rgbe", ".pic"},
+                 {TexelFormat::rgbe8},
+                 recognises,
+                 read,
+                 write,
+                 false,
+                 false,
+                 open_rows};
 
 }  // namespace mirrorball::detail

@@ -298,8 +298,7 @@ LoadedMap load(const std::string& source, const MapReadOptions& options) {
                                     [](const std::vector<Image>& faces) {
                                         return std::all_of(faces.begin(), faces.end(), is_opaque);
                                     });
-    if (!opaque)
-        loaded.notes.emplace_back(kAlphaDropped);
+    if (!opaque) loaded.notes.emplace_back(kAlphaDropped);
 
     loaded.map.levels = unfold(contents, shape, options);
     apply_lobes(words, loaded.map, source);

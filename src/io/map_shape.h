@@ -16,7 +16,7 @@ namespace mirrorball::detail {
 /// What is there, before anyone decides what it is.
 struct StoredPictures {
     std::size_t face_count;
-    int width, height;  ///< of each, at level 0
+    int width, height;                          ///< of each, at level 0
     std::optional<Projection> projection = {};  ///< where the format itself says
     std::optional<Axes> axes = {};              ///< likewise
     std::optional<Projection> by_names = {};    ///< where the faces were files of their own

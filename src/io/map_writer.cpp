@@ -1,8 +1,8 @@
 // write_map(): a map as the formats take it - one picture, six faces, or a file for each face.
 //
-// A face that the texel format can hold is written from where it is. Any other is copied and clamped
-// to what the format holds, so that the caller's map stays as it is, and what a clamp cuts off is
-// known where its solid angle is.
+// A face that the texel format can hold is written from where it is. Any other is copied and
+// clamped to what the format holds, so that the caller's map stays as it is, and what a clamp cuts
+// off is known where its solid angle is.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -247,15 +247,13 @@ WriteReport write_map(const std::string& target, const EnvironmentMap& map,
             throw Error(Errc::usage, fmt::format("{}: a file for each face has no layout {}",
                                                  target, name(options.layout)));
         }
-        write_faces(files, encoder,
-                    contents_for(map, Layout::automatic, options.metadata),
-                    map, paths, codec, chosen);
+        write_faces(files, encoder, contents_for(map, Layout::automatic, options.metadata), map,
+                    paths, codec, chosen);
     } else {
         const Layout layout = choose_layout(codec, map.projection, options.layout, target);
         files.write(
             target, codec,
-            whole_map(encoder, contents_for(map, layout, options.metadata),
-                      map, layout, target),
+            whole_map(encoder, contents_for(map, layout, options.metadata), map, layout, target),
             chosen);
     }
 

@@ -85,7 +85,7 @@ inline std::uint32_t unsigned_float_bits(float value) {
 // three after rounding, and halves round up. Scaling by a power of two is exact, and so is what is
 // left when the whole part is taken away.
 inline std::uint32_t rgb9e5_bits(float red, float green, float blue) {
-    constexpr float kLargest = 65408;  // 511 2^(31 - 24)
+    constexpr float kLargest = 65408;   // 511 2^(31 - 24)
     const auto limited = [](float v) {  // NaN fails the first comparison and becomes 0
         const float positive = v > 0 ? v : 0.0f;
         return positive < kLargest ? positive : kLargest;
@@ -223,8 +223,7 @@ void pack_row(Packing packing, std::span<const float> row, int channels, std::by
 
 void pack_rows(Packing packing, const Image& image, int first, int count, std::byte* out) {
     constexpr int kRowsPerPiece = 16;
-    const std::size_t row_bytes =
-        static_cast<std::size_t>(image.width()) * texel_bytes(packing);
+    const std::size_t row_bytes = static_cast<std::size_t>(image.width()) * texel_bytes(packing);
     parallel_for((count + kRowsPerPiece - 1) / kRowsPerPiece, [&](std::int64_t piece) {
         const int begin = static_cast<int>(piece) * kRowsPerPiece;
         std::vector<float> scratch;
@@ -338,8 +337,7 @@ void pack(Packing packing, const Image& image, std::span<std::byte> out) {
 
 void write_packed(OutputFile& file, Packing packing, const Image& image) {
     constexpr std::size_t kPieceBytes = std::size_t{4} << 20;
-    const std::size_t row_bytes =
-        static_cast<std::size_t>(image.width()) * texel_bytes(packing);
+    const std::size_t row_bytes = static_cast<std::size_t>(image.width()) * texel_bytes(packing);
     const int rows = static_cast<int>(std::clamp<std::size_t>(
         kPieceBytes / row_bytes, 1, static_cast<std::size_t>(image.height())));
     std::vector<std::byte> bytes(rows * row_bytes);

@@ -155,7 +155,7 @@ void write(OutputFile& file, const ContentsView& contents, const WriteOptions&) 
 
 }  // namespace
 
-const Codec kPfm{"PFM", {".pfm"}, {TexelFormat::rgba32f}, recognises, read, write, false, false,
-                 open_rows};
+const Codec kPfm{"PFM", {".pfm"}, {TexelFormat::rgba32f}, recognises, read, write, false,
+                 false, open_rows};
 
 }  // namespace mirrorball::detail

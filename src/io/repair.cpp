@@ -206,8 +206,7 @@ std::string repaired_in_words(Projection projection, int level, const TexelFault
 }
 
 std::string beyond_repair_in_words(Projection projection, int level, const TexelFaults& faults) {
-    return found_in_words(projection, level, faults) +
-           "; there is no good one to replace them by";
+    return found_in_words(projection, level, faults) + "; there is no good one to replace them by";
 }
 
 std::string negative_in_words(int level, const TexelFaults& faults) {

@@ -110,8 +110,8 @@ class RowReader::State {
         file_ = std::make_unique<InputFile>(std::filesystem::path(name_));
         const Codec& codec = codec_for_contents(*file_);
         if (codec.open_rows == nullptr) {
-            obstacle = fmt::format("{} files have no rows that can be read by themselves",
-                                   codec.name);
+            obstacle =
+                fmt::format("{} files have no rows that can be read by themselves", codec.name);
             return false;
         }
         rows_ = codec.open_rows(*file_, options_, obstacle);
@@ -419,8 +419,8 @@ LevelStatistics statistics(RowReader& rows) {
     StatisticsSum sum;
     for_each_batch(rows, [&](std::span<const float> batch, int first, int count) {
         for (int i = 0; i < count; ++i) {
-            const double solid_angle = texel_solid_angle(Projection::equirect, rows.width(),
-                                                         rows.height(), 0, first + i);
+            const double solid_angle =
+                texel_solid_angle(Projection::equirect, rows.width(), rows.height(), 0, first + i);
             const float* texel = &batch[i * rows.row_size()];
             for (int x = 0; x < rows.width(); ++x, texel += 3)
                 sum.add({texel[0], texel[1], texel[2]}, solid_angle);

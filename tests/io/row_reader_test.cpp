@@ -259,7 +259,7 @@ TEST(RowReader, RefusesWhatCannotBeRepaired) {
     const std::string file = (folder / "a.pfm").string();
     const std::vector<float> holes(3 * 16 * 8, kNan);
     write_bytes(file, "PF\n16 8\n-1.0\n" + std::string(reinterpret_cast<const char*>(holes.data()),
-                                                      sizeof(float) * holes.size()));
+                                                       sizeof(float) * holes.size()));
     MapReadOptions options;
     options.repair = true;
     expect_same_error(file);
@@ -301,7 +301,8 @@ TEST(RowReader, RefusesBrokenRuns) {
     const std::string file = (folder / "a.hdr").string();
     Image image(64, 32, 3);  // with runs of every length
     for (int y = 0; y < 32; ++y)
-        for (int x = 0; x < 64; ++x) image.set_rgb(x, y, Vec3f(1.0f + float(x / (y + 1)), 0.5f, float(x % 3)));
+        for (int x = 0; x < 64; ++x)
+            image.set_rgb(x, y, Vec3f(1.0f + float(x / (y + 1)), 0.5f, float(x % 3)));
     write_image(file, image);
     const std::string bytes = bytes_of(file);
     const std::size_t begin = bytes.find("+X 64\n") + 6;
