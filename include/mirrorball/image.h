@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <mirrorball/vector.h>
+#include <mirrorball/zeroed_floats.h>
 
 namespace mirrorball {
 
@@ -68,7 +68,7 @@ class Image {
     }
 
     int width_ = 0, height_ = 0, channels_ = 0;
-    std::vector<float> values_;
+    ZeroedFloats values_;
 };
 
 }  // namespace mirrorball

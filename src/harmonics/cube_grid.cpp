@@ -308,7 +308,8 @@ bool place_cube(int size, const Axes& map_in_grid, CubePlacement& placement) {
 }
 
 CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double> power)
-    : size_(size),
+    : scratch_(rings.scratch()),
+      size_(size),
       half_((size + 1) / 2),
       ring_count_(rings.ring_count()),
       column_count_(rings.column_count()),
@@ -370,8 +371,8 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
 }
 
 CubeGrid::Buffers CubeGrid::make_buffers() const {
-    return {AlignedArray<float>(4 * side_stride_ * 4 * size_),
-            AlignedArray<float>(2 * cap_stride_ * 4 * column_count_)};
+    return {ScratchArray(scratch_, 4 * side_stride_ * 4 * size_),
+            ScratchArray(scratch_, 2 * cap_stride_ * 4 * column_count_)};
 }
 
 void CubeGrid::scatter_group(int group, const std::array<GroupValues, 3>& planes,
@@ -456,7 +457,7 @@ void CubeGrid::make_texels(Buffers& buffers, const CubePlacement& placement, con
         const int which = static_cast<int>(task) - 4 * per_side;
         const int cap = which % 2, quadrant = which / 2 % 4, a = which / 8 * kLines;
         const QuadrantPlacement place = place_quadrant(cap, quadrant, placement);
-        AlignedArray<float> line(static_cast<std::size_t>(kLines) * (2 * cap_reach_ + 1) * 4);
+        ScratchArray line(scratch_, static_cast<std::size_t>(kLines) * (2 * cap_reach_ + 1) * 4);
         const Quadrant q{size_,        half_,         cap_reach_,
                          column_count_, quadrant * column_count_ / 4, &cap_rings_,
                          &cap_columns_, cap_stride_};
@@ -475,7 +476,7 @@ void CubeGrid::spread_texels(const std::vector<Image>& faces, const CubePlacemen
     const int side_blocks = blocks(size_);
     const auto spread_quadrant = [&](int cap, int quadrant) {
         const QuadrantPlacement place = place_quadrant(cap, quadrant, placement);
-        AlignedArray<float> line(static_cast<std::size_t>(kLines) * (2 * cap_reach_ + 1) * 4);
+        ScratchArray line(scratch_, static_cast<std::size_t>(kLines) * (2 * cap_reach_ + 1) * 4);
         const Quadrant q{size_,        half_,         cap_reach_,
                          column_count_, quadrant * column_count_ / 4, &cap_rings_,
                          &cap_columns_, cap_stride_};

@@ -64,7 +64,7 @@ class CubeGrid {
     CubeGrid(int size, const RingTransform& rings, std::span<const double> power);
 
     struct Buffers {
-        AlignedArray<float> sides, caps;
+        ScratchArray sides, caps;
     };
     [[nodiscard]] Buffers make_buffers() const;
 
@@ -92,6 +92,7 @@ class CubeGrid {
     [[nodiscard]] int first_group() const { return first_side_ring_ / lane_count_; }
     [[nodiscard]] double coordinate(int i) const { return (2.0 * i + 1 - size_) / size_; }
 
+    std::shared_ptr<ScratchPool> scratch_;
     int size_, half_;            // half_: texels from the middle of a face out
     int ring_count_, column_count_, lane_count_, group_count_;
     int first_side_ring_, cap_group_count_;

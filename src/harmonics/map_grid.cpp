@@ -89,7 +89,8 @@ constexpr std::int64_t kTexelsPerTask = 2048;
 
 MapGrid::MapGrid(const EnvironmentMap& shape, const RingTransform& rings,
                  std::span<const double> power)
-    : ring_count_(rings.ring_count()),
+    : scratch_(rings.scratch()),
+      ring_count_(rings.ring_count()),
       column_count_(rings.column_count()),
       lane_count_(rings.lane_count()),
       stride_(static_cast<std::size_t>(ring_count_ + 2 * kBeyondPole)) {
@@ -145,7 +146,7 @@ MapGrid::MapGrid(const EnvironmentMap& shape, const RingTransform& rings,
 }
 
 MapGrid::Buffer MapGrid::make_buffer() const {
-    return Buffer(stride_ * 4 * column_count_);
+    return Buffer(scratch_, stride_ * 4 * column_count_);
 }
 
 void MapGrid::scatter_group(int group, const std::array<GroupValues, 3>& planes,

@@ -19,7 +19,7 @@ class MapGrid {
     /// For level 0 of maps like `shape`; the grid's frame is the world. `power` as in TapDesign.
     MapGrid(const EnvironmentMap& shape, const RingTransform& rings, std::span<const double> power);
 
-    using Buffer = AlignedArray<float>;
+    using Buffer = ScratchArray;
     [[nodiscard]] Buffer make_buffer() const;
 
     // Synthesis: every group of rings, then the texels.
@@ -39,6 +39,7 @@ class MapGrid {
         std::int32_t offset;  // of its values
         float solid_angle;
     };
+    std::shared_ptr<ScratchPool> scratch_;
     int ring_count_, column_count_, lane_count_;
     std::size_t stride_;          // in rings
     std::vector<Texel> texels_;   // used ones, by the first of their columns

@@ -157,7 +157,7 @@ void to_spectra(const FourierPlan& plan, const Columns& columns, const float* we
     const float* const z = transform(plan, values, scratch);
     HWY_ALIGN float cosines_of_rings[16];
     for (std::size_t i = 0; i < n; ++i) cosines_of_rings[i] = static_cast<float>(x[i]);
-    const Vec even_weight = hn::Mul(hn::Load(d, weights), hn::Set(d, 0.5f));
+    const Vec even_weight = hn::Mul(hn::LoadU(d, weights), hn::Set(d, 0.5f));
     const Vec odd_weight = hn::Mul(even_weight, hn::Load(d, cosines_of_rings));
     for (int m = 0; m < order_count; ++m) {
         const std::size_t k = m % length, mate = (length - k) % length;
@@ -276,7 +276,7 @@ float* from_spectra(const FourierPlan& plan, const float* weights, int channel, 
     const Lanes d;
     const std::size_t n = hn::Lanes(d), length = plan.length();
     std::memset(values, 0, length * 2 * n * sizeof(float));
-    const Vec weight = weights != nullptr ? hn::Load(d, weights) : hn::Set(d, 1.0f);
+    const Vec weight = weights != nullptr ? hn::LoadU(d, weights) : hn::Set(d, 1.0f);
     for (int m = 0; m < order_count; ++m) {
         const float* const from = spectra + (static_cast<std::size_t>(m) * kParts + channel) * n;
         const Vec north_cos = hn::Mul(hn::Load(d, from), weight);
@@ -324,13 +324,15 @@ int ring_lane_count() {
 }
 
 RingTransform::RingTransform(std::shared_ptr<const LegendreTable> table, int band_count,
-                             int ring_count, int column_count)
+                             int ring_count, int column_count,
+                             std::shared_ptr<ScratchPool> scratch)
     : table_(std::move(table)),
       band_count_(band_count),
       ring_count_(ring_count),
       lane_count_(ring_lane_count()),
       group_count_(((ring_count + 1) / 2 + lane_count_ - 1) / lane_count_),
-      fourier_(column_count) {
+      fourier_(column_count),
+      scratch_(std::move(scratch)) {
     make_seeds();
 }
 
@@ -361,11 +363,11 @@ void RingTransform::make_seeds() {
 }
 
 RingSpectra RingTransform::make_spectra() const {
-    return RingSpectra(padded(band_count_) * group_count_ * kParts * lane_count_);
+    return RingSpectra(scratch_, padded(band_count_) * group_count_ * kParts * lane_count_);
 }
 
 GroupValues RingTransform::make_values() const {
-    return GroupValues(static_cast<std::size_t>(column_count()) * 2 * lane_count_);
+    return GroupValues(scratch_, static_cast<std::size_t>(column_count()) * 2 * lane_count_);
 }
 
 void RingTransform::load_rows(int group, const float* rows,
@@ -422,9 +424,9 @@ void RingTransform::analyse(const RingSpectra& spectra, Harmonics& harmonics) co
         const int m = static_cast<int>(i);
         const LegendreOrder order = legendre_order(m);
         AlignedArray<double> state(static_cast<std::size_t>(group_count_) * 2 * lane_count_);
-        AlignedArray<float> functions(static_cast<std::size_t>(group_count_) * 2 * lane_count_);
+        ScratchArray functions(scratch_, static_cast<std::size_t>(group_count_) * 2 * lane_count_);
         // in steps of two, and each sum is stored with a vector's rest
-        AlignedArray<float> sums(static_cast<std::size_t>(order.step_count + 1) * kParts + 16);
+        ScratchArray sums(scratch_, static_cast<std::size_t>(order.step_count + 1) * kParts + 16);
         const float* const from = spectra.data() + static_cast<std::size_t>(m) * kParts * lane_count_;
         HWY_DYNAMIC_DISPATCH(analyse_order)
         (order, from, state.data(), functions.data(), sums.data(), harmonics.order(m).data());
@@ -438,20 +440,23 @@ void RingTransform::synthesise(const Harmonics& harmonics, std::span<const float
         const int m = static_cast<int>(i);
         const LegendreOrder order = legendre_order(m);
         const std::span<const float> coefficients = harmonics.order(m);
-        const auto degree = [&](int l, int part) {
-            if (l >= band_count_) return 0.0f;
-            // each sign of m > 0 has half of the light
-            const float share = m > 0 ? 0.5f * zonal[l] : zonal[l];
-            return share * coefficients[static_cast<std::size_t>(l - m) * 6 + part];
-        };
-        std::vector<float> weights(static_cast<std::size_t>(order.step_count) * kParts);
-        for (int n = 0; n < order.step_count; ++n) {
+        // filtered, with two degrees of zeros at the end; each sign of m > 0 has half of the light
+        const std::size_t steps = order.step_count;
+        ScratchArray filtered(scratch_, (steps + 1) * kParts);
+        ScratchArray weights(scratch_, steps * kParts);
+        std::fill(filtered.end() - 2 * kParts, filtered.end(), 0.0f);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(order.degree_count); ++k) {
+            const float share = m > 0 ? 0.5f * zonal[m + k] : zonal[m + k];
+            for (std::size_t part = 0; part < 6; ++part)
+                filtered.data()[6 * k + part] = share * coefficients[6 * k + part];
+        }
+        for (std::size_t n = 0; n < steps; ++n) {
             const LegendreTable::Scale& scale = order.scales[n];
-            float* const w = weights.data() + static_cast<std::size_t>(n) * kParts;
-            for (int part = 0; part < 6; ++part) {
-                w[part] = scale.even * degree(m + 2 * n, part) +
-                          scale.next * degree(m + 2 * n + 2, part);
-                w[6 + part] = scale.own * degree(m + 2 * n + 1, part);
+            const float* const f = filtered.data() + n * kParts;
+            float* const w = weights.data() + n * kParts;
+            for (std::size_t part = 0; part < 6; ++part) {
+                w[part] = scale.even * f[part] + scale.next * f[kParts + part];
+                w[6 + part] = scale.own * f[6 + part];
             }
         }
         float* const to = spectra.data() + static_cast<std::size_t>(m) * kParts * lane_count_;

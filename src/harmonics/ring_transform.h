@@ -19,6 +19,7 @@
 #include <mirrorball/harmonics.h>
 
 #include "core/aligned.h"
+#include "core/scratch.h"
 #include "harmonics/fourier.h"
 #include "harmonics/legendre.h"
 
@@ -37,17 +38,18 @@ struct Columns {
 /// Working memory between the two halves of a transform: what each pair of rings holds at each
 /// order, [group][order][12][lane]. The twelve are three channels of cosines and of sines, of the
 /// even and of the odd part in analysis, of north and of south in synthesis.
-using RingSpectra = AlignedArray<float>;
+using RingSpectra = ScratchArray;
 
 /// Planar values on a group of rings, [column][north, south][lane].
-using GroupValues = AlignedArray<float>;
+using GroupValues = ScratchArray;
 
 class RingTransform {
   public:
     /// Orders and degrees below `band_count` of those that the table has. Any ring count; column
     /// counts without large prime factors are fast.
     RingTransform(std::shared_ptr<const LegendreTable> table, int band_count, int ring_count,
-                  int column_count);
+                  int column_count,
+                  std::shared_ptr<ScratchPool> scratch = std::make_shared<ScratchPool>());
 
     [[nodiscard]] int band_count() const { return band_count_; }
     [[nodiscard]] int ring_count() const { return ring_count_; }
@@ -55,6 +57,8 @@ class RingTransform {
     [[nodiscard]] int lane_count() const { return lane_count_; }
     [[nodiscard]] int group_count() const { return group_count_; }
 
+    /// What all working memory of this and of what works with it comes from.
+    [[nodiscard]] const std::shared_ptr<ScratchPool>& scratch() const { return scratch_; }
     [[nodiscard]] RingSpectra make_spectra() const;
     [[nodiscard]] GroupValues make_values() const;
 
@@ -88,6 +92,7 @@ class RingTransform {
     std::shared_ptr<const LegendreTable> table_;
     int band_count_, ring_count_, lane_count_, group_count_;
     FourierPlan fourier_;
+    std::shared_ptr<ScratchPool> scratch_;
     // Where the functions of an order begin to matter on a group, and their two values there.
     std::vector<std::int32_t> starts_;  // [order][group]
     AlignedArray<double> seeds_;        // [order][group][p_n, p_{n-1}][lane]

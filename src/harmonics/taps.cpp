@@ -107,6 +107,35 @@ void TapDesign::weights(double fraction, float* to) const {
         to[i] = from[i] + share * (from[kTapCount + i] - from[i]);
 }
 
+std::vector<double> TapDesign::wave_errors(double step, int count) const {
+    const auto error_of = [&](int l) {
+        double sum = 0;
+        const int fraction_count = 6;
+        for (int f = 0; f < fraction_count; ++f) {
+            const double fraction = (f + 0.5) / fraction_count;
+            float w[kTapCount];
+            weights(fraction, w);
+            double re = -1, im = 0;
+            for (int i = 0; i < kTapCount; ++i) {
+                const double angle = l * step * (i - 3 - fraction);
+                re += w[i] * std::cos(angle), im += w[i] * std::sin(angle);
+            }
+            sum += re * re + im * im;
+        }
+        return std::sqrt(sum / fraction_count);
+    };
+    // smooth in l: every eighth, and straight lines between
+    std::vector<double> errors(count);
+    double left = error_of(0);
+    for (int l = 0; l < count; l += 8) {
+        const double right = error_of(l + 8);
+        for (int i = l; i < std::min(l + 8, count); ++i)
+            errors[i] = left + (right - left) * (i - l) / 8;
+        left = right;
+    }
+    return errors;
+}
+
 void TapList::set(std::size_t point, double position, const TapDesign& design) {
     const double whole = std::floor(position);
     first[point] = static_cast<std::int32_t>(whole) - 3;

@@ -10,22 +10,30 @@ namespace mirrorball::detail {
 namespace {
 
 // Values of a grid per value that its bands need. Eight taps then interpolate a lobe of GGX's
-// spectrum to 2e-5 and a Gaussian one to 6e-5 of its rms; few bands can have more for nothing.
-constexpr double kOversampling = 1.5, kOversamplingOfFewBands = 2.2;
+// spectrum to 2e-5 of its rms; a spectrum that is cut off while it is high needs more, and few bands
+// can have it for nothing.
+constexpr double kOversampling = 1.5, kMoreOversampling = 2.2;
 constexpr int kFewBands = 160;
+constexpr double kMostAtEdge = 1e-4;  // of the power, in the last quarter of the bands
 
-int grid_ring_count(int band_count) {
-    const double oversampling = band_count < kFewBands ? kOversamplingOfFewBands : kOversampling;
-    const int least = std::max(32, static_cast<int>(std::ceil(oversampling * band_count)));
-    const int whole = 2 * ring_lane_count();
-    return (least + whole - 1) / whole * whole;
+double oversampling(std::span<const double> power) {
+    double all = 0, edge = 0;
+    for (std::size_t l = 0; l < power.size(); ++l) {
+        const double here = (2 * static_cast<double>(l) + 1) * power[l];
+        all += here;
+        if (4 * l >= 3 * power.size()) edge += here;
+    }
+    return power.size() < kFewBands || edge > kMostAtEdge * all ? kMoreOversampling : kOversampling;
 }
 
-RingTransform grid_transform(std::shared_ptr<const LegendreTable> table, int band_count) {
-    const int ring_count = grid_ring_count(band_count);
-    const double oversampling = band_count < kFewBands ? kOversamplingOfFewBands : kOversampling;
-    const int least = std::max(64, static_cast<int>(std::ceil(2 * oversampling * band_count)));
-    return RingTransform(std::move(table), band_count, ring_count, good_fourier_length(least));
+RingTransform grid_transform(std::shared_ptr<const LegendreTable> table, int band_count,
+                             std::span<const double> power, std::shared_ptr<ScratchPool> scratch) {
+    const double values = oversampling(power) * band_count;
+    const int whole = 2 * ring_lane_count();
+    const int ring_count = (std::max(32, static_cast<int>(std::ceil(values))) + whole - 1) / whole;
+    const int column_count = good_fourier_length(std::max(64, static_cast<int>(2 * values)));
+    return RingTransform(std::move(table), band_count, ring_count * whole, column_count,
+                         std::move(scratch));
 }
 
 // A panorama whose rows are rings of latitude, north first.
@@ -60,11 +68,12 @@ EnvironmentMap empty_map(const MapShape& shape) {
 }  // namespace
 
 AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
-                           int band_count, std::span<const double> power)
+                           int band_count, std::span<const double> power,
+                           std::shared_ptr<ScratchPool> scratch)
     : shape_(shape), band_count_(band_count) {
     if (is_ring_grid(shape)) {
         const int width = shape.size, height = shape.size / 2;
-        rings_.emplace(std::move(table), band_count, height, width);
+        rings_.emplace(std::move(table), band_count, height, width, std::move(scratch));
         columns_ = panorama_columns(shape);
         ring_weights_.assign(
             static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(), 0.0f);
@@ -75,7 +84,7 @@ AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const Legendre
         }
         return;
     }
-    rings_.emplace(grid_transform(std::move(table), band_count));
+    rings_.emplace(grid_transform(std::move(table), band_count, power, std::move(scratch)));
     ring_weights_.assign(static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(),
                          1.0f);
     if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
@@ -112,8 +121,10 @@ void AnalysisPlan::run(const std::vector<Image>& faces, Harmonics& harmonics) co
 }
 
 SynthesisPlan::SynthesisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
-                             int band_count, std::span<const double> power)
-    : shape_(shape), rings_(grid_transform(std::move(table), band_count)) {
+                             int band_count, std::span<const double> power,
+                             std::shared_ptr<ScratchPool> scratch)
+    : shape_(shape),
+      rings_(grid_transform(std::move(table), band_count, power, std::move(scratch))) {
     if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
         cube_.emplace(shape.size, *rings_, power);
     else
@@ -125,6 +136,13 @@ std::vector<double> SynthesisPlan::pair_colatitudes() const {
     for (std::size_t j = 0; j < colatitudes.size(); ++j)
         colatitudes[j] = (static_cast<double>(j) + 0.5) * kPi / rings_->ring_count();
     return colatitudes;
+}
+
+std::vector<double> SynthesisPlan::wave_errors(std::span<const double> power) const {
+    const double step = kPi / rings_->ring_count();
+    std::vector<double> errors = TapDesign(power, step).wave_errors(step, rings_->band_count());
+    for (double& e : errors) e *= std::sqrt(2.0);  // along both directions
+    return errors;
 }
 
 void SynthesisPlan::run(const Harmonics& harmonics, std::span<const float> zonal,

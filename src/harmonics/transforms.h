@@ -22,13 +22,15 @@ namespace mirrorball::detail {
 class AnalysisPlan {
   public:
     AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table, int band_count,
-                 std::span<const double> power);
+                 std::span<const double> power, std::shared_ptr<ScratchPool> scratch);
 
     /// \pre map has the plan's shape
     void run(const std::vector<Image>& faces, Harmonics& harmonics) const;
 
     [[nodiscard]] const MapShape& shape() const { return shape_; }
     [[nodiscard]] int band_count() const { return band_count_; }
+    /// Is the map itself the grid of rings?
+    [[nodiscard]] bool on_rings() const { return !cube_ && !grid_; }
 
   private:
     MapShape shape_;
@@ -46,12 +48,16 @@ class SynthesisPlan {
   public:
     /// Degrees below `band_count`, with power `power`.
     SynthesisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table, int band_count,
-                  std::span<const double> power);
+                  std::span<const double> power, std::shared_ptr<ScratchPool> scratch);
 
     [[nodiscard]] const MapShape& shape() const { return shape_; }
     [[nodiscard]] int band_count() const { return rings_->band_count(); }
     /// Colatitudes of the pairs of rings that `ring_weights` of run() multiplies.
     [[nodiscard]] std::vector<double> pair_colatitudes() const;
+
+    /// Of each degree, the relative error that interpolation on the grid makes of it, in root mean
+    /// square. \pre `power` is what the plan was made with
+    [[nodiscard]] std::vector<double> wave_errors(std::span<const double> power) const;
 
     /// Texels are clamped to [lowest, highest] per channel. \pre harmonics has the bands
     void run(const Harmonics& harmonics, std::span<const float> zonal,

@@ -8,6 +8,7 @@
 #include <mirrorball/error.h>
 
 #include "image/for_each_texel.h"
+#include "image/map_size.h"
 #include "image/statistics_sum.h"
 
 namespace mirrorball {
@@ -77,13 +78,18 @@ class SeamWalk {
 
 }  // namespace
 
-EnvironmentMap make_environment_map(Projection projection, int size) {
-    const int width = size, height = size / aspect(projection);
-    if (size < 1 || height < 1 || height * aspect(projection) != width)
+void detail::check_map_size(Projection projection, int size) {
+    const int height = size / aspect(projection);
+    if (size < 1 || height < 1 || height * aspect(projection) != size)
         throw Error(Errc::usage,
                     fmt::format("size {}: a map of projection {} needs {}", size, name(projection),
                                 aspect(projection) == 2 ? "an even width of 2 or more"
                                                         : "an edge of 1 texel or more"));
+}
+
+EnvironmentMap make_environment_map(Projection projection, int size) {
+    detail::check_map_size(projection, size);
+    const int width = size, height = size / aspect(projection);
     EnvironmentMap map{projection, default_axes(projection), {Level{}}};
     for (int i = 0; i < face_count(projection); ++i)
         map.levels[0].faces.emplace_back(width, height, 3);

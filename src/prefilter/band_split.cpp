@@ -223,6 +223,7 @@ BandSplit split_bands(const Lobe& lobe, double tolerance, int max_band_count) {
     const RollOff roll_off = best_roll_off(spectrum, plan);
     BandSplit split;
     for (int l = 0; l < count; ++l) split.far.push_back(spectrum.lambda[l] * roll_off(l));
+    split.whole = spectrum.whole;
     split.tail = std::sqrt(spectrum.lost(roll_off) / spectrum.whole);
     const NearPartOf near(lobe, split);
     const double rms = std::sqrt(spectrum.whole) / (4 * kPi);

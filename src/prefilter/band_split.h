@@ -21,6 +21,9 @@ struct BandSplit {
 
     /// What a single lit texel's image lacks without the near part, in root mean square, relative.
     double tail = 0;
+
+    /// The whole lobe's sum over all bands of (2l+1) lambda_l^2.
+    double whole = 0;
 };
 
 /// Enough bands for `tolerance`, which is what `tail` keeps to unless a crease at the horizon or

@@ -199,6 +199,23 @@ NearField::NearField(std::span<const Light> lights) {
     } while (below > 1);
 }
 
+bool NearField::reached(const NearKernel& near, const Ball& ball, std::size_t level,
+                        std::size_t index) const {
+    const Ball& here = levels_[level][index];
+    const float distance = (here.centre - ball.centre).length();
+    const float spread = here.radius + ball.radius + kSlack;
+    if (!near.reaches(std::max(distance - spread, 0.0f), distance + spread)) return false;
+    if (level == 0) return true;
+    const std::size_t end = std::min((index + 1) * kFan, levels_[level - 1].size());
+    for (std::size_t i = index * kFan; i < end; ++i)
+        if (reached(near, ball, level - 1, i)) return true;
+    return false;
+}
+
+bool NearField::reaches(const NearKernel& near, const Vec3f& centre, float radius) const {
+    return !levels_.empty() && reached(near, {centre, radius}, levels_.size() - 1, 0);
+}
+
 void NearField::visit(Walk& walk, std::size_t level, std::size_t index) const {
     const Ball& ball = levels_[level][index];
     const auto parts = walk.near.parts();

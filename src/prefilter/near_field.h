@@ -34,6 +34,9 @@ class NearField {
     /// \pre all spans of a tile have one size
     void add(const NearKernel& near, const NearTile& tile) const;
 
+    /// May any light reach into the ball, of directions, by that kernel?
+    [[nodiscard]] bool reaches(const NearKernel& near, const Vec3f& centre, float radius) const;
+
   private:
     // A ball in space that holds the directions of its lights.
     struct Ball {
@@ -43,6 +46,8 @@ class NearField {
     struct Walk;
 
     void visit(Walk& walk, std::size_t level, std::size_t index) const;
+    [[nodiscard]] bool reached(const NearKernel& near, const Ball& ball, std::size_t level,
+                               std::size_t index) const;
 
     std::vector<float> x_, y_, z_, r_, g_, b_, solid_angle_;  // in Morton order
     std::vector<std::vector<Ball>> levels_;  // [0] of kFan lights each, the next of kFan balls each

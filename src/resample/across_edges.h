@@ -45,8 +45,8 @@ class AcrossEdges {
     // Column i and row j of a stencil, where the level's move carries them.
     Rgbx texel(const Stencil& stencil, int i, int j) const {
         const Move& move = level_.moves[stencil.face];
-        const int x = Move::flipped(move.flip_s, stencil.column + i, 1, width_),
-                  y = Move::flipped(move.flip_t, stencil.row + j, 1, height_);
+        const int x = mirrored(move.flip_s, stencil.column[0] + i, 1, width_),
+                  y = mirrored(move.flip_t, stencil.row[0] + j, 1, height_);
         return fetch(move.face, x + move.quarters * (width_ / 4), y);
     }
 
@@ -56,10 +56,14 @@ class AcrossEdges {
         if constexpr (P::three_at_corners) {
             if (beside && above) return beyond_corner(face, x, y);
         }
+        if (P::fills_square && !beside && !above) return load(face, x, y);
         FacePoint<double> p{face, (x + 0.5) / width_, (y + 0.5) / height_};
         if (beside || above || !P::covers(p)) p = P::wrap(p);
-        const std::ptrdiff_t row = index(p.t, height_);
-        return load_rgbx(level_.faces[p.face] + 3 * (row * width_ + index(p.s, width_)));
+        return load(p.face, index(p.s, width_), index(p.t, height_));
+    }
+
+    Rgbx load(int face, int x, int y) const {
+        return load_rgbx(level_.faces[face] + 3 * (static_cast<std::ptrdiff_t>(y) * width_ + x));
     }
 
     // Where three faces meet there is no fourth texel: the mean of the three stands for it, so that

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,7 @@
 
 #include "core/parallel.h"
 #include "core/vectorized.h"
+#include "image/map_size.h"
 #include "resample/across_edges.h"
 #include "resample/rgbx.h"
 #include "resample/symmetry.h"
@@ -46,7 +48,7 @@ constexpr double kMostCellsPerSourceTexel = 4;
 // A texel on the rim is cut so that the rim's course through it is seen.
 constexpr int kRimCells = 16;
 
-constexpr int kBlock = 64;  // texels or cells that are worked out together, in vector code
+constexpr int kBlock = 128;  // texels or cells that are worked out together, in vector code
 
 // Texels of the target, or cells of one, as the source sees them: where their centres lie on the
 // sphere, and their two edges as differences of direction.
@@ -384,9 +386,7 @@ class RowPlanner {
 // Runs the plan of a row, for all repeats of its patch.
 class RowRunner {
   public:
-    RowRunner(const Source& source, const Level& from, Level& to)
-        : source_(source),
-          to_(to) {
+    RowRunner(const Source& source, const Level& from, Level& to) : source_(source), to_(to) {
         for (std::size_t face = 0; face < from.faces.size(); ++face)
             level_.faces[face] = from.faces[face].at(0, 0);
         level_.width = from.width(), level_.height = from.height();
@@ -398,7 +398,7 @@ class RowRunner {
             detail::make_stencils(&row.texels[x], count, level_.width, level_.height, stencils_);
             for (const detail::Repeat& repeat : patch.repeats) {
                 weigh(repeat, count, repeat.flip_x);
-                const int to_x = Move::flipped(repeat.flip_x, patch.x + x, count, to_.width());
+                const int to_x = detail::mirrored(repeat.flip_x, patch.x + x, count, to_.width());
                 std::copy_n(values_, 3 * count,
                             to_.faces[repeat.face].at(to_x, row_of(repeat, patch, y)));
             }
@@ -407,10 +407,9 @@ class RowRunner {
     }
 
   private:
-    using Move = detail::Move;
-
-    [[nodiscard]] int row_of(const detail::Repeat& repeat, const detail::Patch& patch, int y) const {
-        return Move::flipped(repeat.flip_y, patch.y + y, 1, to_.height());
+    [[nodiscard]] int row_of(const detail::Repeat& repeat, const detail::Patch& patch,
+                             int y) const {
+        return detail::mirrored(repeat.flip_y, patch.y + y, 1, to_.height());
     }
 
     // A texel's cells may go on in the next block.
@@ -432,7 +431,8 @@ class RowRunner {
                     const bool last =
                         first + k + 1 == cell_count || row.uses[first + k + 1].x != use.x;
                     if (!last) continue;
-                    const int to_x = Move::flipped(repeat.flip_x, patch.x + use.x, 1, to_.width());
+                    const int to_x =
+                        detail::mirrored(repeat.flip_x, patch.x + use.x, 1, to_.width());
                     image.set_rgb(to_x, to_y, Vec3f(sums_[r]));
                     sums_[r] = Vec3d(0.0);
                 }
@@ -444,8 +444,7 @@ class RowRunner {
     void weigh(const detail::Repeat& repeat, int count, bool reversed) {
         level_.moves = repeat.source;
         int across[kBlock];
-        const int across_count =
-            detail::weigh(stencils_, count, reversed, level_, values_, across);
+        const int across_count = detail::weigh(stencils_, count, reversed, level_, values_, across);
         for (int k = 0; k < across_count; ++k) {
             const int i = across[k];
             const Rgbx value = source_.across_edges(stencils_[i], level_);
@@ -468,25 +467,23 @@ Axes relative_axes(const Axes& target, const Axes& source) {
 
 void copy_level(const Level& from, Level& to) {
     const int height = from.height();
-    detail::parallel_for(static_cast<std::int64_t>(from.faces.size()) * height,
-                         [&](std::int64_t i) {
-                             const int face = static_cast<int>(i / height),
-                                       y = static_cast<int>(i % height);
-                             std::ranges::copy(from.faces[face].row(y),
-                                               to.faces[face].row(y).begin());
-                         });
+    detail::parallel_for(
+        static_cast<std::int64_t>(from.faces.size()) * height, [&](std::int64_t i) {
+            const int face = static_cast<int>(i / height), y = static_cast<int>(i % height);
+            std::ranges::copy(from.faces[face].row(y), to.faces[face].row(y).begin());
+        });
 }
 
 void check_shape(const char* what, const EnvironmentMap& map, const MapShape& expected) {
     if (map.level_count() > 0 && shape_of(map) == expected) return;
-    throw Error(Errc::usage,
-                map.level_count() == 0
-                    ? fmt::format("{} of a resampling has no levels", what)
-                    : fmt::format("{} of a resampling is {} of size {} in axes {}; its plan is for "
-                                  "{} of size {} in axes {}",
-                                  what, name(map.projection), map.width(), to_string(map.axes),
-                                  name(expected.projection), expected.size,
-                                  to_string(expected.axes)));
+    throw Error(
+        Errc::usage,
+        map.level_count() == 0
+            ? fmt::format("{} of a resampling has no levels", what)
+            : fmt::format("{} of a resampling is {} of size {} in axes {}; its plan is for "
+                          "{} of size {} in axes {}",
+                          what, name(map.projection), map.width(), to_string(map.axes),
+                          name(expected.projection), expected.size, to_string(expected.axes)));
 }
 
 }  // namespace
@@ -501,6 +498,8 @@ class Resampler::Plan {
     Plan(const MapShape& source, const MapShape& target, Interpolation interpolation)
         : source_shape_(source),
           target_shape_(target) {
+        detail::check_map_size(source.projection, source.size);
+        detail::check_map_size(target.projection, target.size);
         if (copies()) return;
         const detail::Grid from = grid(source), to = grid(target);
         const Axes to_source = relative_axes(target.axes, source.axes);
@@ -527,8 +526,7 @@ class Resampler::Plan {
         });
     }
 
-    void run(const EnvironmentMap& source, EnvironmentMap& result,
-             const Progress& progress) const {
+    void run(const EnvironmentMap& source, EnvironmentMap& result, const Progress& progress) const {
         check_shape("the source", source, source_shape_);
         check_shape("the result", result, target_shape_);
         if (copies()) return copy_level(source.levels[0], result.levels[0]);

@@ -32,10 +32,12 @@ inline constexpr double kBoxUnit = 1.0 / 8192;
 /// own. Of a smooth one: 4 x 4 texels, the four weights of monotone_cubic() along either axis.
 struct Stencil {
     static constexpr int kMost = 12;
-    int face, column, row;
-    std::int16_t column_count, row_count;  ///< columns by fours
     BoxKind kind;
-    bool at_rim;
+    bool across_edges;                     ///< has texels beyond its face's edges or used part
+    std::int16_t column_count, row_count;  ///< columns by fours
+    int face;
+    /// Where it begins on its face, and where on the face mirrored.
+    int column[2], row[2];
     float columns[kMost], rows[kMost];
 };
 
@@ -45,12 +47,12 @@ struct Move {
     int face = 0;
     bool flip_s = false, flip_t = false;
     int quarters = 0;
-
-    /// Where the texels that begin at `first` and are `count` of `size` begin after the mirror.
-    static int flipped(bool flip, int first, int count, int size) {
-        return flip ? size - first - count : first;
-    }
 };
+/// Where what begins at `first` and is `count` of `size` long begins if the whole is mirrored.
+inline int mirrored(bool mirror, int first, int count, int size) {
+    return mirror ? size - first - count : first;
+}
+
 inline constexpr int kMostFaces = 6;
 using Moves = std::array<Move, kMostFaces>;  ///< of each face
 

@@ -114,13 +114,14 @@ std::vector<Patch> find_patches(const Grid& target, const Grid& source, const Ax
     const int part_width = target.width / halves_x, part_height = target.height / halves_y;
     bool taken[kMostFaces][2][2] = {};
     const auto patch_of = [&](const Part& part) {
-        Patch patch{part.face,  part.half_x * part_width, part.half_y * part_height,
-                    part_width, part_height,              {}};
+        Patch patch{
+            part.face, part.half_x * part_width, part.half_y * part_height, part_width, part_height,
+            {}};
         for (const Symmetry& symmetry : symmetries) {
             const std::optional<Move>& move = symmetry.target[part.face];
             if (!move) continue;
-            bool& is_taken = taken[move->face][Move::flipped(move->flip_s, part.half_x, 1, halves_x)]
-                                  [Move::flipped(move->flip_t, part.half_y, 1, halves_y)];
+            bool& is_taken = taken[move->face][mirrored(move->flip_s, part.half_x, 1, halves_x)]
+                                  [mirrored(move->flip_t, part.half_y, 1, halves_y)];
             if (is_taken) continue;
             is_taken = true;
             patch.repeats.push_back({move->face, move->flip_s, move->flip_t, symmetry.source});
@@ -131,7 +132,8 @@ std::vector<Patch> find_patches(const Grid& target, const Grid& source, const Ax
     for (int face = 0; face < face_count(target.projection); ++face)
         for (int half_y = 0; half_y < halves_y; ++half_y)
             for (int half_x = 0; half_x < halves_x; ++half_x)
-                if (!taken[face][half_x][half_y]) patches.push_back(patch_of({face, half_x, half_y}));
+                if (!taken[face][half_x][half_y])
+                    patches.push_back(patch_of({face, half_x, half_y}));
     return patches;
 }
 

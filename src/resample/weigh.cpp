@@ -90,13 +90,19 @@ HWY_ATTR void MakeStencils(const Box* boxes, int count, int width, int height, S
             columns = mean_along(box.s, box.width, width, stencil.columns);
             rows = mean_along(box.t, box.height, height, stencil.rows);
         }
-        stencil.face = box.face;
-        stencil.at_rim = box.at_rim;
-        stencil.column = columns.first;
-        stencil.row = rows.first;
         const bool large = box.kind == BoxKind::large;
-        stencil.column_count = static_cast<std::int16_t>(large ? (columns.count + 3) / 4 * 4 : 4);
-        stencil.row_count = static_cast<std::int16_t>(large ? rows.count : 4);
+        const int column_count = large ? (columns.count + 3) / 4 * 4 : 4,
+                  row_count = large ? rows.count : 4;
+        stencil.column_count = static_cast<std::int16_t>(column_count);
+        stencil.row_count = static_cast<std::int16_t>(row_count);
+        stencil.face = box.face;
+        for (const bool mirror : {false, true}) {
+            stencil.column[mirror] = mirrored(mirror, columns.first, column_count, width);
+            stencil.row[mirror] = mirrored(mirror, rows.first, 1, height);
+        }
+        stencil.across_edges = box.at_rim || columns.first < 0 || rows.first < 0 ||
+                               columns.first + column_count > width ||
+                               rows.first + row_count > height;
     }
 }
 
@@ -110,32 +116,32 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::FixedTag<float, 16>;
 using Indices = hn::FixedTag<std::int32_t, 16>;
 
+// Lanes to take: weights for texels side by side, by whether the columns are flipped.
+struct Orders {
+    alignas(64) std::int32_t each[2][16], values[2][16], slopes[2][16];
+    alignas(64) float sign[2][16];
+    alignas(64) std::int32_t next[16], second_next[16];
+
+    constexpr Orders() : each(), values(), slopes(), sign(), next(), second_next() {
+        for (int i = 0; i < 16; ++i) {
+            const int texel = std::min(i / 3, 3), pair = std::min(i / 3, 1);
+            for (int flip = 0; flip < 2; ++flip) {
+                each[flip][i] = flip ? 3 - texel : texel;
+                values[flip][i] = flip ? 1 - pair : pair;
+                slopes[flip][i] = 2 + values[flip][i];
+                sign[flip][i] = flip ? -1.0f : 1.0f;
+            }
+            next[i] = (i + 3) % 16;
+            second_next[i] = (i + 6) % 16;
+        }
+    }
+};
+constexpr Orders kOrders;
+
 // Four texels side by side in the lower twelve lanes.
 class FourTexels {
   public:
     using Row = hn::Vec<Floats>;
-
-    HWY_ATTR FourTexels() {
-        for (int flip = 0; flip < 2; ++flip) {
-            alignas(64) std::int32_t each[16], values[16], slopes[16];
-            alignas(64) float sign[16];
-            for (int i = 0; i < 16; ++i) {
-                const int texel = std::min(i / 3, 3), pair = std::min(i / 3, 1);
-                each[i] = flip ? 3 - texel : texel;
-                values[i] = flip ? 1 - pair : pair;
-                slopes[i] = 2 + values[i];
-                sign[i] = flip ? -1.0f : 1.0f;
-            }
-            each_[flip] = hn::Load(Indices(), each);
-            values_[flip] = hn::Load(Indices(), values);
-            slopes_[flip] = hn::Load(Indices(), slopes);
-            sign_[flip] = hn::Load(Floats(), sign);
-        }
-        alignas(64) std::int32_t one[16], two[16];
-        for (int i = 0; i < 16; ++i) one[i] = (i + 3) % 16, two[i] = (i + 6) % 16;
-        next_ = hn::Load(Indices(), one);
-        second_next_ = hn::Load(Indices(), two);
-    }
 
     static HWY_ATTR HWY_INLINE Row zero() { return hn::Zero(Floats()); }
     static HWY_ATTR HWY_INLINE Row load(const float* texels) {
@@ -153,30 +159,29 @@ class FourTexels {
         return add(sum, at_c, weights[3]);
     }
     // Each texel times its weight, the last one first if flipped.
-    HWY_ATTR HWY_INLINE Row weighed(Row row, const float* weights, bool flip) const {
-        return hn::Mul(row, weights_by(weights, each_[flip]));
+    static HWY_ATTR HWY_INLINE Row weighed(Row row, const float* weights, bool flip) {
+        return hn::Mul(row, weights_by(weights, kOrders.each[flip]));
     }
-    HWY_ATTR HWY_INLINE void store_sum(Row row, float* out) const {
-        const Row pairs = hn::Add(row, permuted(row, second_next_));
-        store_first(hn::Add(pairs, permuted(pairs, next_)), out);
+    static HWY_ATTR HWY_INLINE void store_sum(Row row, float* out) {
+        const Row pairs = hn::Add(row, permuted(row, kOrders.second_next));
+        store_first(hn::Add(pairs, permuted(pairs, kOrders.next)), out);
     }
-    HWY_ATTR HWY_INLINE void store_cubic(Row row, const float* weights, bool flip,
-                                         float* out) const {
-        const Row middle = permuted(row, next_), steps = hn::Sub(middle, row);
-        const Row slopes = slope(steps, permuted(steps, next_));
-        const Row slope_weights = hn::Mul(weights_by(weights, slopes_[flip]), sign_[flip]);
-        const Row pair = hn::MulAdd(middle, weights_by(weights, values_[flip]),
+    static HWY_ATTR HWY_INLINE void store_cubic(Row row, const float* weights, bool flip,
+                                                float* out) {
+        const Row middle = permuted(row, kOrders.next), steps = hn::Sub(middle, row);
+        const Row slopes = slope(steps, permuted(steps, kOrders.next));
+        const Row slope_weights = hn::Mul(weights_by(weights, kOrders.slopes[flip]),
+                                          hn::Load(Floats(), kOrders.sign[flip]));
+        const Row pair = hn::MulAdd(middle, weights_by(weights, kOrders.values[flip]),
                                     hn::Mul(slopes, slope_weights));
-        store_first(hn::Add(pair, permuted(pair, next_)), out);
+        store_first(hn::Add(pair, permuted(pair, kOrders.next)), out);
     }
 
   private:
-    using Order = hn::Vec<Indices>;
-
-    static HWY_ATTR HWY_INLINE Row permuted(Row row, Order order) {
-        return hn::TableLookupLanes(row, hn::IndicesFromVec(Floats(), order));
+    static HWY_ATTR HWY_INLINE Row permuted(Row row, const std::int32_t* order) {
+        return hn::TableLookupLanes(row, hn::IndicesFromVec(Floats(), hn::Load(Indices(), order)));
     }
-    static HWY_ATTR HWY_INLINE Row weights_by(const float* weights, Order order) {
+    static HWY_ATTR HWY_INLINE Row weights_by(const float* weights, const std::int32_t* order) {
         return permuted(hn::LoadDup128(Floats(), weights), order);
     }
     static HWY_ATTR HWY_INLINE void store_first(Row row, float* out) {
@@ -189,11 +194,6 @@ class FourTexels {
         const Row least = hn::Min(zero(), hn::Mul(six, hn::Max(left, right)));
         return hn::Max(hn::Min(hn::Add(left, right), most), least);
     }
-
-    // by whether the columns are flipped
-    Order each_[2], values_[2], slopes_[2];
-    Row sign_[2];
-    Order next_, second_next_;
 };
 
 #else
@@ -239,6 +239,25 @@ class FourTexels {
 
 #endif
 
+// A face of the source, where a move carries it.
+struct MovedFace {
+    const float* texels;
+    std::ptrdiff_t row_size, row_step;
+    int width, shift;
+    bool flip_s, flip_t;
+};
+
+HWY_ATTR MovedFace moved_face(const MovedLevel& level, const Move& move) {
+    const std::ptrdiff_t row_size = 3 * static_cast<std::ptrdiff_t>(level.width);
+    return {level.faces[move.face],
+            row_size,
+            move.flip_t ? -row_size : row_size,
+            level.width,
+            move.quarters * (level.width / 4),
+            move.flip_s,
+            move.flip_t};
+}
+
 // Where a stencil's first row lies, and how far it is to the next; the columns run backwards if
 // flipped. Nowhere, if it reaches over the face's edges.
 struct Place {
@@ -247,35 +266,25 @@ struct Place {
     bool flip;
 };
 
-HWY_ATTR HWY_INLINE Place find(const Stencil& stencil, const MovedLevel& level) {
-    const Move& move = level.moves[stencil.face];
-    const int width = level.width, height = level.height;
-    int column = Move::flipped(move.flip_s, stencil.column, stencil.column_count, width);
-    if (move.quarters != 0) {
-        column += move.quarters * (width / 4);
-        if (column >= width) column -= width;
-    }
-    const int top = Move::flipped(move.flip_t, stencil.row, stencil.row_count, height);
-    if (column < 0 || top < 0 || column + stencil.column_count > width ||
-        top + stencil.row_count > height || stencil.at_rim)
-        return {};
-    const std::ptrdiff_t row_size = 3 * static_cast<std::ptrdiff_t>(width);
-    const int first = move.flip_t ? top + stencil.row_count - 1 : top;
-    return {level.faces[move.face] + first * row_size + 3 * column,
-            move.flip_t ? -row_size : row_size, move.flip_s};
+HWY_ATTR HWY_INLINE Place find(const Stencil& stencil, const MovedFace* faces) {
+    if (stencil.across_edges) return {};
+    const MovedFace& face = faces[stencil.face];
+    int column = stencil.column[face.flip_s] + face.shift;
+    if (column >= face.width) column -= face.width;
+    if (column + stencil.column_count > face.width) return {};
+    return {face.texels + stencil.row[face.flip_t] * face.row_size + 3 * column, face.row_step,
+            face.flip_s};
 }
 
-HWY_ATTR HWY_INLINE void weigh_small(const FourTexels& four, const Stencil& stencil,
-                                     const Place& place, float* out) {
+HWY_ATTR HWY_INLINE void weigh_small(const Stencil& stencil, const Place& place, float* out) {
     const float* texels = place.texels;
     auto sum = FourTexels::zero();
     for (int j = 0; j < 4; ++j, texels += place.row_step)
         sum = FourTexels::add(sum, FourTexels::load(texels), stencil.rows[j]);
-    four.store_sum(four.weighed(sum, stencil.columns, place.flip), out);
+    FourTexels::store_sum(FourTexels::weighed(sum, stencil.columns, place.flip), out);
 }
 
-HWY_ATTR HWY_INLINE void weigh_large(const FourTexels& four, const Stencil& stencil,
-                                     const Place& place, float* out) {
+HWY_ATTR HWY_INLINE void weigh_large(const Stencil& stencil, const Place& place, float* out) {
     auto total = FourTexels::zero();
     for (int i = 0; i < stencil.column_count; i += 4) {
         const int from = place.flip ? stencil.column_count - 4 - i : i;
@@ -283,24 +292,26 @@ HWY_ATTR HWY_INLINE void weigh_large(const FourTexels& four, const Stencil& sten
         auto sum = FourTexels::zero();
         for (int j = 0; j < stencil.row_count; ++j, texels += place.row_step)
             sum = FourTexels::add(sum, FourTexels::load(texels), stencil.rows[j]);
-        total = FourTexels::add(total, four.weighed(sum, stencil.columns + i, place.flip), 1.0f);
+        total =
+            FourTexels::add(total, FourTexels::weighed(sum, stencil.columns + i, place.flip), 1.0f);
     }
-    four.store_sum(total, out);
+    FourTexels::store_sum(total, out);
 }
 
-HWY_ATTR HWY_INLINE void interpolate(const FourTexels& four, const Stencil& stencil,
-                                     const Place& place, float* out) {
+HWY_ATTR HWY_INLINE void interpolate(const Stencil& stencil, const Place& place, float* out) {
     const float* texels = place.texels;
     const std::ptrdiff_t step = place.row_step;
     const auto row = FourTexels::cubic(FourTexels::load(texels), FourTexels::load(texels + step),
                                        FourTexels::load(texels + 2 * step),
                                        FourTexels::load(texels + 3 * step), stencil.rows);
-    four.store_cubic(row, stencil.columns, place.flip, out);
+    FourTexels::store_cubic(row, stencil.columns, place.flip, out);
 }
 
 HWY_ATTR int Weigh(const Stencil* stencils, int count, bool reversed, const MovedLevel& level,
                    float* out, int* across) {
-    const FourTexels four;
+    MovedFace faces[kMostFaces];
+    for (int face = 0; face < kMostFaces; ++face)
+        faces[face] = moved_face(level, level.moves[face]);
     int across_count = 0;
     for (int k = 0; k < count; ++k, out += 3) {
         const int i = reversed ? count - 1 - k : k;
@@ -309,15 +320,15 @@ HWY_ATTR int Weigh(const Stencil* stencils, int count, bool reversed, const Move
             store_rgbx(Rgbx{}, out);
             continue;
         }
-        const Place place = find(stencil, level);
+        const Place place = find(stencil, faces);
         if (place.texels == nullptr)
             across[across_count++] = i;
         else if (stencil.kind == BoxKind::smooth)
-            interpolate(four, stencil, place, out);
+            interpolate(stencil, place, out);
         else if (stencil.kind == BoxKind::small)
-            weigh_small(four, stencil, place, out);
+            weigh_small(stencil, place, out);
         else
-            weigh_large(four, stencil, place, out);
+            weigh_large(stencil, place, out);
     }
     return across_count;
 }

@@ -8,8 +8,8 @@ namespace mirrorball::detail {
 
 /// The texels of a level, read as if carried by `moves`.
 struct MovedLevel {
-    const float* faces[kMostFaces];
-    int width, height;
+    const float* faces[kMostFaces] = {};
+    int width = 0, height = 0;
     Moves moves;
 };
 

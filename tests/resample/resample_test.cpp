@@ -310,6 +310,113 @@ TEST(Resample, SmallestMaps) {
     EXPECT_THROW((void)make_environment_map(Projection::equirect, 7), Error);
 }
 
+// A plan is used again and again, with other pixels each time, and into a map that held others. By
+// all that its patches may do: whole and half faces, moved along a panorama or not at all, in axes
+// that no symmetry fits, with rims and with texels cut into cells.
+TEST(Resampler, GivesTheBitsOfResample) {
+    const Axes askew = rotated(Axes{}, 0.3, 0.2, 0.1);
+    for (const Projection from : all_projections()) {
+        for (const Projection target : all_projections()) {
+            for (const Axes& axes : {default_axes(target), askew}) {
+                SCOPED_TRACE(std::string(name(from)) + " to " + std::string(name(target)));
+                const EnvironmentMap first = sampled(from, size_for(from, 40), smooth_light);
+                EnvironmentMap second = first;
+                for (Image& face : second.levels[0].faces)
+                    for (float& value : face.values()) value = 1 / (1 + value);
+                const MapShape shape{target, size_for(target, 72), axes};
+                const Resampler plan(shape_of(first), shape);
+                EnvironmentMap result = plan(first);
+                EXPECT_EQ(shape_of(result), shape);
+                expect_same_bits(result, resample(first, target, shape.size, axes));
+                plan(second, result);
+                expect_same_bits(result, resample(second, target, shape.size, axes));
+            }
+        }
+    }
+}
+
+TEST(Resampler, OverwritesAllOfAMap) {
+    for (const Projection target : all_projections()) {
+        const EnvironmentMap source = sampled(Projection::equirect, 64, smooth_light);
+        const MapShape shape{target, size_for(target, 50), default_axes(target)};
+        const Resampler plan(shape_of(source), shape);
+        EnvironmentMap result = plan(source);
+        const EnvironmentMap expected = result;
+        for (Image& face : result.levels[0].faces) std::ranges::fill(face.values(), -7.0f);
+        plan(source, result);
+        expect_same_bits(result, expected);
+    }
+}
+
+// The symmetries that a plan makes use of are found, not assumed. Here they differ by the sizes'
+// being even and the panorama's being a multiple of four, and by the axes; what shows a wrong one
+// is a colour in a wrong place.
+TEST(Resampler, SymmetriesLeaveEveryColourInItsPlace) {
+    const auto expect_in_place = [](const EnvironmentMap& source, const MapShape& shape) {
+        const EnvironmentMap result = Resampler(shape_of(source), shape)(source);
+        const EnvironmentMap truth =
+            sampled(shape.projection, shape.size, shape.axes, smooth_light);
+        EXPECT_LT(compare(result, truth).maximum_relative, 2e-2)
+            << name(source.projection) << " " << source.width() << " to " << name(shape.projection)
+            << " " << shape.size << " " << to_string(shape.axes);
+    };
+    const Axes askew = rotated(Axes{}, 0.3, 0.2, 0.1);
+    for (const int width : {128, 130, 132})
+        for (const int size : {31, 32})
+            for (const char* frame : {"+x+y-z", "+z+y-x", "-x+y+z", "+y-x+z", "-z-y+x"}) {
+                const Axes axes = parse_axes(frame, Projection::cube);
+                const EnvironmentMap panorama = sampled(Projection::equirect, width, smooth_light);
+                expect_in_place(panorama, {Projection::cube, size, axes});
+                const EnvironmentMap cube =
+                    sampled(Projection::cube, width / 4, axes, smooth_light);
+                expect_in_place(cube, {Projection::cube, size, default_axes(Projection::cube)});
+                expect_in_place(cube, {Projection::equirect, 2 * size, askew});
+                expect_in_place(cube, {Projection::octahedral, 2 * size, axes});
+            }
+}
+
+TEST(Resampler, SymmetriesSaveMemory) {
+    const MapShape panorama{Projection::equirect, 256, Axes{}};
+    const Axes cube = default_axes(Projection::cube), askew = rotated(cube, 0.3, 0.2, 0.1);
+    // two of 24 quarters of faces; in any axes a half, since both look the same turned inside out
+    const std::size_t texels = 6 * 128 * 128,
+                      alike = Resampler(panorama, {Projection::cube, 128, cube}).bytes(),
+                      general = Resampler(panorama, {Projection::cube, 128, askew}).bytes();
+    // 16 bytes each; the cells of cut texels come on top
+    EXPECT_GE(alike, texels / 12 * 16);
+    EXPECT_LT(alike, 2 * texels / 12 * 16);
+    EXPECT_GE(general, texels / 2 * 16);
+    EXPECT_LT(general, 2 * texels / 2 * 16);
+}
+
+// The message says what was expected; the map that was to be written stays as it was.
+TEST(Resampler, NamesMapsThatItsPlanIsNotFor) {
+    const EnvironmentMap source = sampled(Projection::equirect, 32, smooth_light);
+    const MapShape shape{Projection::cube, 8, default_axes(Projection::cube)};
+    const Resampler plan(shape_of(source), shape);
+    const auto expect_refused = [&](const EnvironmentMap& from, EnvironmentMap to,
+                                    const std::string& words) {
+        const EnvironmentMap before = to;
+        try {
+            plan(from, to);
+            FAIL() << words;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), Errc::usage);
+            EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+        }
+        if (before.level_count() > 0) expect_same_bits(to, before);
+    };
+    const EnvironmentMap result = plan(source);
+    expect_refused(sampled(Projection::equirect, 34, smooth_light), result,
+                   "the source of a resampling is equirect of size 34");
+    expect_refused(source, sampled(Projection::cube, 9, smooth_light),
+                   "the result of a resampling is cube of size 9");
+    expect_refused(EnvironmentMap{}, result, "has no levels");
+    expect_refused(source, EnvironmentMap{}, "has no levels");
+    EXPECT_THROW(Resampler(shape_of(source), {Projection::cube, 0, {}}), Error);
+    EXPECT_THROW(Resampler({Projection::equirect, 7, {}}, shape), Error);
+}
+
 TEST(Resample, StopsWhenAsked) {
     const EnvironmentMap source = sampled(Projection::equirect, 64, smooth_light);
     try {

@@ -1,0 +1,51 @@
+#include "prefilter/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mirrorball::detail {
+namespace {
+
+// Single precision, through a transform of a thousand terms.
+constexpr double kRounding = 1e-6;
+
+double square(double x) {
+    return x * x;
+}
+
+}  // namespace
+
+std::vector<double> power_spectrum(const Harmonics& harmonics) {
+    std::vector<double> power(harmonics.band_count());
+    for (int m = 0; m < harmonics.band_count(); ++m) {
+        const std::span<const float> order = harmonics.order(m);
+        for (std::size_t i = 0; i < order.size(); i += 6) {
+            float sum = 0;
+            for (std::size_t k = 0; k < 6; ++k) sum += order[i + k] * order[i + k];
+            power[m + i / 6] += sum;
+        }
+    }
+    return power;
+}
+
+double estimated_error(std::span<const double> spectrum, const ErrorTerms& terms) {
+    double result = 0, error = 0;
+    for (std::size_t l = 0; l < spectrum.size(); ++l) {
+        const double far = l < terms.far.size() ? terms.far[l] : 0;
+        const double wave = l < terms.waves.size() ? terms.waves[l] : 0;
+        const double lambda = l < terms.lambda.size() ? terms.lambda[l] : 0;
+        result += square(far) * spectrum[l];
+        error += (square(lambda - far) + square(far * wave)) * spectrum[l];
+    }
+    // Degrees that were not analysed are taken to hold as much each as the last that were.
+    const std::size_t count = spectrum.size(), tail = std::max<std::size_t>(1, count / 8);
+    double power = 0, coefficients = 0;
+    for (std::size_t l = count - tail; l < count; ++l) {
+        power += spectrum[l];
+        coefficients += 2 * static_cast<double>(l) + 1;
+    }
+    error += terms.beyond * power / coefficients;
+    return result > 0 ? std::sqrt(error / result) + kRounding : 0;
+}
+
+}  // namespace mirrorball::detail

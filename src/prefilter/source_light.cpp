@@ -1,0 +1,187 @@
+#include "prefilter/source_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <mirrorball/error.h>
+
+#include "core/parallel.h"
+#include "core/vectorized.h"
+
+namespace mirrorball::detail {
+namespace {
+
+// f(face, y) for each row of level 0, in parallel.
+template <class F>
+void for_each_row(const EnvironmentMap& map, const F& f) {
+    const int height = map.height();
+    parallel_for(static_cast<std::int64_t>(map.levels[0].faces.size()) * height,
+                 [&](std::int64_t row) {
+                     f(row, map.levels[0].faces[row / height], static_cast<int>(row % height));
+                 });
+}
+
+std::size_t row_count(const EnvironmentMap& map) {
+    return map.levels[0].faces.size() * static_cast<std::size_t>(map.height());
+}
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Per channel of a row: least, greatest, and sum by solid angle.
+struct RowRange {
+    float lowest[3] = {kInfinity, kInfinity, kInfinity};
+    float highest[3] = {-kInfinity, -kInfinity, -kInfinity};
+    double power = 0;
+    bool finite = true;
+};
+
+// A row all of whose texels have one solid angle: values are taken three vectors at a time.
+RowRange range_of_whole_row(std::span<const float> row, double solid_angle) {
+    constexpr std::size_t kStep = 24;
+    float low[kStep], high[kStep], sum[kStep];
+    std::fill_n(low, kStep, kInfinity);
+    std::fill_n(high, kStep, -kInfinity);
+    std::fill_n(sum, kStep, 0.0f);
+    double power = 0;
+    std::size_t x = 0;
+    vectorized([&]() MIRRORBALL_INLINE_BODY {
+        for (; x + kStep <= row.size(); x += kStep) {
+            for (std::size_t i = 0; i < kStep; ++i) {
+                const float v = row[x + i];
+                low[i] = v < low[i] ? v : low[i];
+                high[i] = v > high[i] ? v : high[i];
+                sum[i] += v;
+            }
+        }
+    });
+    RowRange range;
+    for (std::size_t i = 0; i < kStep; ++i) {
+        range.lowest[i % 3] = std::min(range.lowest[i % 3], low[i]);
+        range.highest[i % 3] = std::max(range.highest[i % 3], high[i]);
+        power += sum[i];
+    }
+    for (; x < row.size(); ++x) {
+        range.lowest[x % 3] = std::min(range.lowest[x % 3], row[x]);
+        range.highest[x % 3] = std::max(range.highest[x % 3], row[x]);
+        power += row[x];
+    }
+    // NaN fails every comparison above, but not this sum
+    range.finite = std::isfinite(power);
+    range.power = power * solid_angle;
+    return range;
+}
+
+RowRange range_of_row(std::span<const float> row, const double* solid_angles) {
+    RowRange range;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const double solid_angle = solid_angles[i / 3];
+        if (solid_angle == 0) continue;
+        range.lowest[i % 3] = std::min(range.lowest[i % 3], row[i]);
+        range.highest[i % 3] = std::max(range.highest[i % 3], row[i]);
+        range.finite = range.finite && std::isfinite(row[i]);
+        range.power += row[i] * solid_angle;
+    }
+    return range;
+}
+
+// Texels with a channel above `threshold`, as far as they are above it, or whole if it is none.
+std::vector<Light> lights_of(const EnvironmentMap& map, const std::vector<double>& solid_angles,
+                             std::optional<float> limit) {
+    const float threshold = limit.value_or(-kInfinity);
+    const auto width = static_cast<std::size_t>(map.width());
+    std::vector<std::vector<Light>> rows(row_count(map));
+    visit(map.projection, [&](auto p) {
+        using P = decltype(p);
+        for_each_row(map, [&](std::int64_t i, const Image& image, int y) {
+            const std::span<const float> row = image.row(y);
+            float highest = -kInfinity;
+            vectorized([&]() MIRRORBALL_INLINE_BODY {
+                for (const float v : row) highest = v > highest ? v : highest;
+            });
+            if (!(highest > threshold)) return;
+            for (std::size_t x = 0; x < width; ++x) {
+                const double solid_angle = solid_angles[static_cast<std::size_t>(y) * width + x];
+                const Vec3f rgb = image.rgb(static_cast<int>(x), y);
+                if (solid_angle == 0 || !(std::max({rgb.x, rgb.y, rgb.z}) > threshold)) continue;
+                const FacePoint<double> centre{static_cast<int>(i / map.height()),
+                                               (static_cast<double>(x) + 0.5) / map.width(),
+                                               (y + 0.5) / map.height()};
+                Vec3f power;
+                for (int c = 0; c < 3; ++c) {
+                    const float excess = limit ? std::max(rgb[c] - *limit, 0.0f) : rgb[c];
+                    power[c] = excess * static_cast<float>(solid_angle);
+                }
+                rows[i].push_back({Vec3f(map.axes.to_world(P::direction(centre))), power,
+                                   static_cast<float>(solid_angle)});
+            }
+        });
+    });
+    std::vector<Light> lights;
+    for (const auto& row : rows) lights.insert(lights.end(), row.begin(), row.end());
+    return lights;
+}
+
+}  // namespace
+
+SourceRange range_of(const EnvironmentMap& map, const std::vector<double>& solid_angles) {
+    std::vector<RowRange> rows(row_count(map));
+    const auto width = static_cast<std::size_t>(map.width());
+    for_each_row(map, [&](std::int64_t i, const Image& image, int y) {
+        const double* const row = solid_angles.data() + width * static_cast<std::size_t>(y);
+        rows[i] = map.projection == Projection::equirect
+                      ? range_of_whole_row(image.row(y), row[0])
+                      : range_of_row(image.row(y), row);
+    });
+    SourceRange range{Vec3f(kInfinity, kInfinity, kInfinity),
+                      Vec3f(-kInfinity, -kInfinity, -kInfinity), 0};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!rows[i].finite) {
+            const std::size_t height = map.height();
+            throw Error(Errc::usage,
+                        fmt::format("prefiltering: row {} of face {} holds a value that is not "
+                                    "finite; expected numbers",
+                                    i % height, i / height));
+        }
+        for (int c = 0; c < 3; ++c) {
+            range.lowest[c] = std::min(range.lowest[c], rows[i].lowest[c]);
+            range.highest[c] = std::max(range.highest[c], rows[i].highest[c]);
+        }
+        range.mean += rows[i].power / (3 * 4 * kPi);
+    }
+    return range;
+}
+
+std::vector<Light> lights_above(const EnvironmentMap& map, const std::vector<double>& solid_angles,
+                                float threshold) {
+    return lights_of(map, solid_angles, threshold);
+}
+
+std::vector<Light> all_lights(const EnvironmentMap& map, const std::vector<double>& solid_angles) {
+    return lights_of(map, solid_angles, std::nullopt);
+}
+
+double mean_square_below(const EnvironmentMap& map, const std::vector<double>& solid_angles,
+                         float threshold) {
+    const auto width = static_cast<std::size_t>(map.width());
+    std::vector<double> rows(row_count(map));
+    for_each_row(map, [&](std::int64_t i, const Image& image, int y) {
+        const std::span<const float> row = image.row(y);
+        for (std::size_t x = 0; x < width; ++x) {
+            float sum = 0;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float v = std::min(row[3 * x + c], threshold);
+                sum += v * v;
+            }
+            rows[i] += sum * solid_angles[static_cast<std::size_t>(y) * width + x];
+        }
+    });
+    double sum = 0;
+    for (const double row : rows) sum += row;
+    return sum / (3 * 4 * kPi);
+}
+
+}  // namespace mirrorball::detail
