@@ -87,9 +87,15 @@ EnvironmentMap converted(const EnvironmentMap& source, const Target& target, int
     return result;
 }
 
+// Room for the result, to be left by what is read; half of all where its size follows from that.
+std::uint64_t result_bytes(const Options& options, const Shared& shared) {
+    if (!options.projection || options.size == 0) return shared.memory_limit / 2;
+    return bytes_needed(*options.projection, options.size, options.levels.has_value());
+}
+
 int run(const Options& options, const Shared& shared) {
     check_target(options.output, options.write);
-    LoadedMap loaded = load(options.input, shared);
+    LoadedMap loaded = load(options.input, shared, result_bytes(options, shared));
     EnvironmentMap& source = loaded.map;
     const Target target = target_of(options, source);
     check_size(target.projection, target.size);

@@ -1,10 +1,12 @@
 // mirrorball info: what is in a file; and the projections compared, as measured.
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <mirrorball/error.h>
+#include <mirrorball/row_reader.h>
 
 #include "output.h"
 #include "progress.h"
@@ -85,90 +87,136 @@ std::string direction_text(const Vec3d& d) {
     return fmt::format("({:.3f}, {:.3f}, {:.3f})", d.x, d.y, d.z);
 }
 
-Vec3d centre_direction(const EnvironmentMap& map) {
-    return visit(map.projection, [&](auto projection) {
-        return map.axes.to_world(projection.direction(FacePoint<double>{0, 0.5, 0.5}));
+// What is printed of a level, and of a file: of a map, or of rows that were never held together.
+struct LevelFacts {
+    int width, height;
+    std::optional<Lobe> lobe;
+    LevelStatistics statistics;
+    std::optional<double> seam_ratio;  ///< needs the whole map
+};
+
+struct FileFacts {
+    std::string format;
+    TexelFormat stored;
+    Projection projection;
+    Axes axes;
+    std::vector<LevelFacts> levels;
+    Metadata metadata;
+    std::vector<std::string> notes;
+};
+
+FileFacts facts_of(const LoadedMap& loaded) {
+    const EnvironmentMap& map = loaded.map;
+    FileFacts facts{loaded.format,   loaded.stored, map.projection, map.axes, {},
+                    loaded.metadata, loaded.notes};
+    for (int i = 0; i < map.level_count(); ++i)
+        facts.levels.push_back({map.width(i), map.height(i), map.levels[i].lobe, statistics(map, i),
+                                seam_ratio(map, i)});
+    return facts;
+}
+
+FileFacts facts_of(RowReader& rows) {
+    const LevelStatistics found = statistics(rows);  // first, for what it makes the notes say
+    FileFacts facts{rows.format(),   rows.stored(), Projection::equirect, rows.axes(), {},
+                    rows.metadata(), rows.notes()};
+    facts.levels.push_back({rows.width(), rows.height(), rows.lobe(), found, std::nullopt});
+    facts.notes.emplace_back("was read row by row, as --memory is less than the whole takes");
+    return facts;
+}
+
+Vec3d centre_direction(const FileFacts& facts) {
+    return visit(facts.projection, [&](auto projection) {
+        return facts.axes.to_world(projection.direction(FacePoint<double>{0, 0.5, 0.5}));
     });
 }
 
-Json level_json(const EnvironmentMap& map, int level) {
-    const LevelStatistics s = statistics(map, level);
-    const auto& lobe = map.levels[level].lobe;
-    return {{"level", level},
-            {"width", map.width(level)},
-            {"height", map.height(level)},
-            {"lobe", lobe ? Json(to_string(*lobe)) : Json()},
+Json level_json(const LevelFacts& level, int number) {
+    const LevelStatistics& s = level.statistics;
+    return {{"level", number},
+            {"width", level.width},
+            {"height", level.height},
+            {"lobe", level.lobe ? Json(to_string(*level.lobe)) : Json()},
             {"flux", to_json(s.flux)},
             {"minimum", to_json(s.minimum)},
             {"maximum", to_json(s.maximum)},
             {"rms", s.rms},
-            {"seam_ratio", seam_ratio(map, level)},
+            {"seam_ratio", level.seam_ratio ? Json(*level.seam_ratio) : Json()},
             {"texels", s.texel_count},
             {"non_finite_texels", s.non_finite_count},
             {"negative_texels", s.negative_count}};
 }
 
-Json file_json(const std::string& source, const LoadedMap& loaded) {
-    const EnvironmentMap& map = loaded.map;
+Json file_json(const std::string& source, const FileFacts& facts) {
     Json levels = Json::array();
-    for (int i = 0; i < map.level_count(); ++i) levels.push_back(level_json(map, i));
+    for (std::size_t i = 0; i < facts.levels.size(); ++i)
+        levels.push_back(level_json(facts.levels[i], static_cast<int>(i)));
     return {{"file", source},
-            {"format", loaded.format},
-            {"texel_format", name(loaded.stored)},
-            {"projection", name(map.projection)},
-            {"faces", face_count(map.projection)},
-            {"width", map.width()},
-            {"height", map.height()},
-            {"axes", to_string(map.axes)},
-            {"mirrored_axes", map.axes.mirrored()},
-            {"centre_looks_at", to_json(centre_direction(map))},
+            {"format", facts.format},
+            {"texel_format", name(facts.stored)},
+            {"projection", name(facts.projection)},
+            {"faces", face_count(facts.projection)},
+            {"width", facts.levels[0].width},
+            {"height", facts.levels[0].height},
+            {"axes", to_string(facts.axes)},
+            {"mirrored_axes", facts.axes.mirrored()},
+            {"centre_looks_at", to_json(centre_direction(facts))},
             {"levels", levels},
-            {"metadata", loaded.metadata},
-            {"notes", loaded.notes}};
+            {"metadata", facts.metadata},
+            {"notes", facts.notes}};
 }
 
-std::string level_text(const EnvironmentMap& map, int level) {
-    const LevelStatistics s = statistics(map, level);
-    const auto& lobe = map.levels[level].lobe;
+std::string level_text(const LevelFacts& level, std::size_t number) {
+    const LevelStatistics& s = level.statistics;
     std::string text = fmt::format(
         "level {:<3}   {} x {}{}\n"
         "  range     {} to {}; rms {}\n"
-        "  flux      {}\n"
-        "  seams     {:.3f} (step across edges : step beside them)\n",
-        level, map.width(level), map.height(level),
-        lobe ? fmt::format(", filtered with {}", to_string(*lobe)) : std::string(),
-        figures(Vec3d(s.minimum)), figures(Vec3d(s.maximum)), figure(s.rms), figures(s.flux),
-        seam_ratio(map, level));
+        "  flux      {}\n",
+        number, level.width, level.height,
+        level.lobe ? fmt::format(", filtered with {}", to_string(*level.lobe)) : std::string(),
+        figures(Vec3d(s.minimum)), figures(Vec3d(s.maximum)), figure(s.rms), figures(s.flux));
+    if (level.seam_ratio)
+        text += fmt::format("  seams     {:.3f} (step across edges : step beside them)\n",
+                            *level.seam_ratio);
     if (s.negative_count > 0) text += fmt::format("  negative  {} texels\n", s.negative_count);
     if (s.non_finite_count > 0) text += fmt::format("  no number {} texels\n", s.non_finite_count);
     return text;
 }
 
-std::string file_text(const std::string& source, const LoadedMap& loaded) {
-    const EnvironmentMap& map = loaded.map;
+std::string file_text(const std::string& source, const FileFacts& facts) {
+    const LevelFacts& base = facts.levels.front();
     std::string text = fmt::format(
         "{}\n"
         "format      {}, {}\n"
         "projection  {}\n"
         "axes        {}{}; the centre of {} looks at {}\n",
-        source, loaded.format, name(loaded.stored), shape_text(map), to_string(map.axes),
-        map.axes.mirrored() ? " (left-handed)" : "",
-        face_count(map.projection) > 1 ? "the first face" : "the picture",
-        direction_text(centre_direction(map)));
-    for (int i = 0; i < map.level_count(); ++i) text += level_text(map, i);
-    for (const std::string& note : loaded.notes) text += fmt::format("note        {}\n", note);
+        source, facts.format, name(facts.stored),
+        shape_text(facts.projection, base.width, base.height,
+                   static_cast<int>(facts.levels.size())),
+        to_string(facts.axes), facts.axes.mirrored() ? " (left-handed)" : "",
+        face_count(facts.projection) > 1 ? "the first face" : "the picture",
+        direction_text(centre_direction(facts)));
+    for (std::size_t i = 0; i < facts.levels.size(); ++i) text += level_text(facts.levels[i], i);
+    for (const std::string& note : facts.notes) text += fmt::format("note        {}\n", note);
     return text;
+}
+
+FileFacts examine(const Input& input, const Shared& shared) {
+    MapReadOptions options = input.options;
+    options.memory_limit = shared.memory_limit;
+    if (auto rows = open_if_larger(source_of(input), options, shared.memory_limit))
+        return facts_of(*rows);
+    Shared silent = shared;
+    silent.quiet = true;  // the notes are part of the result
+    return facts_of(load(input, silent));
 }
 
 int run(const Options& options, const Shared& shared) {
     if (options.projections) return print_projections(options.size, shared);
-    Shared silent = shared;
-    silent.quiet = true;  // the notes are part of the result
-    const LoadedMap loaded = load(options.input, silent);
+    const FileFacts facts = examine(options.input, shared);
     if (shared.json) {
-        print_json(file_json(options.input.source, loaded));
+        print_json(file_json(options.input.source, facts));
     } else {
-        print(file_text(options.input.source, loaded));
+        print(file_text(options.input.source, facts));
     }
     return 0;
 }
@@ -186,7 +234,9 @@ Command info_command(Shared& shared) {
                         whole_number(options->size, 2, 8192)}};
     add_input_options(command, options->input);
     add_shared_options(command, shared);
-    command.notes = {"Flux is the integral of radiance over the sphere, per channel."};
+    command.notes = {
+        "Flux is the integral of radiance over the sphere, per channel.",
+        "A .hdr, .pfm or .exr panorama that is larger than --memory is read row by row."};
     command.examples = {"mirrorball info studio.hdr", "mirrorball info specular.ktx2 --json",
                         "mirrorball info --projections"};
     command.run = [options, &shared] { return run(*options, shared); };

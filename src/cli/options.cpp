@@ -9,6 +9,7 @@
 #include <mirrorball/builtin.h>
 #include <mirrorball/error.h>
 #include <mirrorball/prefilter.h>
+#include <mirrorball/row_reader.h>
 
 #include "output.h"
 
@@ -120,7 +121,8 @@ void add_shared_options(Command& command, Shared& shared) {
         {{"--json", "", "print one JSON object", flag(shared.json)},
          {"--threads", "N", "threads to use [all; the result is the same for any number]",
           whole_number(shared.threads, 1, 1024)},
-         {"--memory", "BYTES", "refuse what needs more, as 512M or 2G [3/4 of the machine's]",
+         {"--memory", "BYTES",
+          "reduce or refuse what needs more, as 512M or 2G [3/4 of the machine's]",
           parsed(shared.memory_limit, parse_memory)},
          {"--quiet", "", "no progress, no notes, no line about what was written",
           flag(shared.quiet)}});
@@ -171,17 +173,46 @@ void add_input_options(Command& command, Input& input) {
           flag(options.repair)}});
 }
 
-LoadedMap load(const Input& input, const Shared& shared) {
+std::string source_of(const Input& input) {
     if (!input.faces.empty() && !input.source.empty()) {
         throw Error(Errc::usage, "IN and --faces are both given; one of them names the input");
     }
-    if (!input.faces.empty())
-        return load(fmt::format("{}", fmt::join(input.faces, ",")), input, shared);
+    if (!input.faces.empty()) return fmt::format("{}", fmt::join(input.faces, ","));
     if (input.source.empty()) throw Error(Errc::usage, "IN is missing: a file, or --faces");
-    return load(input.source, input, shared);
+    return input.source;
 }
 
-LoadedMap load(const std::string& source, const Input& input, const Shared& shared) {
+LoadedMap load(const Input& input, const Shared& shared, std::uint64_t result_bytes) {
+    return load(source_of(input), input, shared, result_bytes);
+}
+
+namespace {
+
+// A panorama that would take more than `most_bytes`, made as much smaller as it takes.
+std::optional<LoadedMap> load_reduced(const std::string& source, const MapReadOptions& options,
+                                      std::uint64_t most_bytes) {
+    std::optional<RowReader> rows = open_if_larger(source, options, most_bytes);
+    if (!rows) return std::nullopt;
+    const std::optional<int> factor = factor_to_fit(*rows, most_bytes);
+    if (!factor) return std::nullopt;
+    LoadedMap loaded;
+    loaded.map = reduced(*rows, *factor);
+    loaded.format = rows->format();
+    loaded.stored = rows->stored();
+    loaded.metadata = rows->metadata();
+    loaded.notes = rows->notes();
+    loaded.notes.push_back(fmt::format(
+        "{} x {} texels were averaged to {} x {}: the whole takes {}, and --memory leaves {}",
+        rows->width(), rows->height(), loaded.map.width(), loaded.map.height(),
+        bytes_text(environment_map_bytes(Projection::equirect, rows->width())),
+        bytes_text(most_bytes)));
+    return loaded;
+}
+
+}  // namespace
+
+LoadedMap load(const std::string& source, const Input& input, const Shared& shared,
+               std::uint64_t result_bytes) {
     if (source.starts_with("builtin:")) {
         const std::string builtin = source.substr(8);
         const auto known = builtin_choices().values;
@@ -191,7 +222,9 @@ LoadedMap load(const std::string& source, const Input& input, const Shared& shar
     }
     MapReadOptions options = input.options;
     options.memory_limit = shared.memory_limit;
-    LoadedMap loaded = read_map(source, options);
+    const std::uint64_t left = shared.memory_limit - std::min(result_bytes, shared.memory_limit);
+    std::optional<LoadedMap> small = load_reduced(source, options, left);
+    LoadedMap loaded = small ? std::move(*small) : read_map(source, options);
     for (const std::string& note : loaded.notes) tell(shared, note);
     return loaded;
 }

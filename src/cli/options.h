@@ -32,9 +32,14 @@ struct Input {
 void add_input_argument(Command& command, Input& input, bool required = true);
 void add_input_options(Command& command, Input& input);
 
-/// Reads the map within the limit on memory and tells the notes. Missing input is a usage error.
-[[nodiscard]] LoadedMap load(const Input& input, const Shared& shared);
-[[nodiscard]] LoadedMap load(const std::string& source, const Input& input, const Shared& shared);
+/// Reads the map within the limit on memory and tells the notes. Missing input is a usage error. A
+/// panorama that leaves no room for `result_bytes` is reduced to one that does, and that is told.
+[[nodiscard]] LoadedMap load(const Input& input, const Shared& shared,
+                             std::uint64_t result_bytes = 0);
+[[nodiscard]] LoadedMap load(const std::string& source, const Input& input, const Shared& shared,
+                             std::uint64_t result_bytes = 0);
+/// What load() is asked for: the file's name, or the faces' in one. \throws Error(Errc::usage)
+[[nodiscard]] std::string source_of(const Input& input);
 
 /// "-90,30,0" -> radians.
 struct Rotation {

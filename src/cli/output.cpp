@@ -45,13 +45,16 @@ Json to_json(const Vec3f& value) {
     return {value.x, value.y, value.z};
 }
 
-std::string shape_text(const EnvironmentMap& map) {
-    const int faces = face_count(map.projection);
+std::string shape_text(Projection projection, int width, int height, int level_count) {
+    const int faces = face_count(projection);
     const std::string count = faces > 1 ? fmt::format("{} x ", faces) : "";
-    std::string text =
-        fmt::format("{}, {}{} x {}", name(map.projection), count, map.width(), map.height());
-    if (map.level_count() > 1) text += fmt::format(", {} levels", map.level_count());
+    std::string text = fmt::format("{}, {}{} x {}", name(projection), count, width, height);
+    if (level_count > 1) text += fmt::format(", {} levels", level_count);
     return text;
+}
+
+std::string shape_text(const EnvironmentMap& map) {
+    return shape_text(map.projection, map.width(), map.height(), map.level_count());
 }
 
 Json to_json(const std::string& target, const EnvironmentMap& map, const WriteReport& report) {

@@ -28,6 +28,7 @@ void tell(const Shared& shared, const std::string& note);
 
 /// "cube, 6 x 256 x 256"
 [[nodiscard]] std::string shape_text(const EnvironmentMap& map);
+[[nodiscard]] std::string shape_text(Projection projection, int width, int height, int level_count);
 
 /// Prints what was written and tells what it had to clip.
 void print_written(const std::string& target, const EnvironmentMap& map, const WriteReport& report,

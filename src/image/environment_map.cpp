@@ -9,6 +9,7 @@
 
 #include "image/for_each_texel.h"
 #include "image/map_size.h"
+#include "image/statistics_sum.h"
 
 namespace mirrorball {
 namespace {
@@ -112,28 +113,11 @@ Vec3d flux(const EnvironmentMap& map, int level) {
 }
 
 LevelStatistics statistics(const EnvironmentMap& map, int level) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    LevelStatistics s{Vec3d(0.0), Vec3f(infinity), Vec3f(-infinity), 0, 0, 0, 0};
-    double squares = 0;
+    detail::StatisticsSum sum;
     detail::for_each_texel(map, level, [&](int face, int x, int y, double solid_angle) {
-        const Vec3f value = map.levels[level].faces[face].rgb(x, y);
-        bool finite = true, negative = false;
-        for (int c = 0; c < 3; ++c) {
-            finite = finite && std::isfinite(value[c]);
-            negative = negative || value[c] < 0;
-            if (!std::isfinite(value[c])) continue;
-            s.minimum[c] = std::min(s.minimum[c], value[c]);
-            s.maximum[c] = std::max(s.maximum[c], value[c]);
-        }
-        ++s.texel_count;
-        s.negative_count += negative ? 1 : 0;
-        s.non_finite_count += finite ? 0 : 1;
-        if (!finite) return;
-        s.flux += Vec3d(value) * solid_angle;
-        squares += Vec3d(value).dot(Vec3d(value)) * solid_angle;
+        sum.add(map.levels[level].faces[face].rgb(x, y), solid_angle);
     });
-    s.rms = std::sqrt(squares / (3 * 4 * kPi));
-    return s;
+    return sum.result();
 }
 
 double seam_ratio(const EnvironmentMap& map, int level) {

@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -15,17 +18,37 @@
 
 namespace mirrorball::detail {
 
+/// What a codec writes: FileContents whose pictures, most of them large, stay their owner's.
+struct ContentsView {
+    using Picture = std::reference_wrapper<const Image>;
+
+    std::vector<std::vector<Picture>> levels;  // [level][face]; never empty, all sizes consistent
+    Metadata metadata;
+    std::optional<Projection> projection;
+    std::optional<Axes> axes;
+
+    ContentsView() = default;
+    /// \pre `contents` outlives this
+    ContentsView(const FileContents& contents);
+};
+
+class RowSource;
+
 struct Codec {
     std::string_view name;                   // "Radiance HDR"
     std::vector<std::string_view> endings;   // ".hdr", lower case; the first is the usual one
     std::vector<TexelFormat> texel_formats;  // that it writes; the first is the automatic one
     bool (*recognises)(std::span<const std::byte> head);  // the first 32 bytes or fewer
     FileContents (*read)(InputFile& file, const ReadOptions& options);
-    // Writes `contents` (never empty; all sizes consistent) and does not commit. Values are already
-    // within the range of the texel format, which is one of texel_formats. Null if it only reads.
-    void (*write)(OutputFile& file, const FileContents& contents, const WriteOptions& options);
+    // Writes `contents` and does not commit. Values are already within the range of the texel
+    // format, which is one of texel_formats. Null if it only reads.
+    void (*write)(OutputFile& file, const ContentsView& contents, const WriteOptions& options);
     bool holds_cubes = false;  // six faces in one file; else one picture
     bool holds_levels = false;
+    // Opens a picture to be read row by row; null if none of the format can. Where this one cannot,
+    // gives null and says why: "its scanlines do not ...". The file outlives what is returned.
+    std::unique_ptr<RowSource> (*open_rows)(InputFile& file, const ReadOptions& options,
+                                            std::string& obstacle) = nullptr;
 };
 
 extern const Codec kHdr, kExr, kPng, kJpeg, kTiff, kKtx2, kDds, kPfm;
@@ -34,6 +57,16 @@ extern const Codec kHdr, kExr, kPng, kJpeg, kTiff, kKtx2, kDds, kPfm;
 
 /// \throws Error(Errc::usage) naming the endings there are
 [[nodiscard]] const Codec& codec_for_name(const std::filesystem::path& path);
+
+/// By the first bytes; the file is at its beginning afterwards. \throws Error(Errc::cannot_read)
+[[nodiscard]] const Codec& codec_for_contents(InputFile& file);
+/// Notes that a file's name speaks of another format than it is in.
+void note_misleading_name(const InputFile& file, const Codec& codec,
+                          std::vector<std::string>& notes);
+/// Whether floats stored so are to be taken as sRGB, and doing it to texels of so many channels.
+[[nodiscard]] bool floats_are_srgb(TexelFormat stored, Transfer transfer);
+void make_linear(std::span<float> values, int channels);
+inline constexpr const char* kTakenAsSrgb = "float values taken as sRGB, as asked";
 
 /// What read_file() does with a file that is open, or in memory.
 [[nodiscard]] FileContents read_contents(InputFile& file, const ReadOptions& options);

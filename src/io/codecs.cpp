@@ -93,22 +93,6 @@ std::string bytes_in_words(double bytes) {
     return fmt::format("{:.{}f} {}", bytes, unit == 0 ? 0 : 1, kUnits[unit]);
 }
 
-// Files of floats hold linear values; a user who knows better says so.
-void make_linear(FileContents& contents, Transfer transfer) {
-    if (transfer != Transfer::srgb || !entry(contents.stored).is_float) return;
-    for (auto& faces : contents.levels)
-        for (Image& image : faces) {
-            const int channels = image.channels();
-            const bool has_alpha = channels == 2 || channels == 4;
-            const int colour_count = has_alpha ? channels - 1 : channels;
-            const std::span<float> values = image.values();
-            for (std::size_t i = 0; i < values.size(); i += channels)
-                for (int c = 0; c < colour_count; ++c)
-                    values[i + c] = detail::srgb_to_linear(values[i + c]);
-        }
-    contents.notes.push_back("float values taken as sRGB, as asked");
-}
-
 void refuse_nan(const FileContents& contents, const std::filesystem::path& path) {
     for (const auto& faces : contents.levels)
         for (const Image& image : faces)
@@ -122,20 +106,6 @@ void refuse_nan(const FileContents& contents, const std::filesystem::path& path)
                                         "should hold",
                                         path.string(), (bad - row.begin()) / image.channels(), y));
             }
-}
-
-const detail::Codec& codec_for_contents(detail::InputFile& file) {
-    std::array<std::byte, 32> head;
-    const std::size_t count = file.read_some(head);
-    file.seek(0);
-    if (count == 0) file.fail("is empty");
-    for (const detail::Codec* codec : detail::codecs())
-        if (codec->recognises(std::span<const std::byte>(head).first(count))) return *codec;
-
-    std::vector<std::string_view> names;
-    for (const detail::Codec* codec : detail::codecs()) names.push_back(codec->name);
-    file.fail(fmt::format("is in no format that is known here, by its first bytes; known are {}",
-                          fmt::join(names, ", ")));
 }
 
 }  // namespace
@@ -216,6 +186,14 @@ std::span<const Codec* const> codecs() {
     return kTable;
 }
 
+ContentsView::ContentsView(const FileContents& contents)
+    : metadata(contents.metadata),
+      projection(contents.projection),
+      axes(contents.axes) {
+    for (const std::vector<Image>& faces : contents.levels)
+        levels.emplace_back(faces.begin(), faces.end());
+}
+
 const Codec& codec_for_name(const std::filesystem::path& path) {
     const std::string ending = lower_case_ending(path);
     std::vector<std::string_view> endings;
@@ -234,16 +212,50 @@ const Codec& codec_for_name(const std::filesystem::path& path) {
                             path.string(), ending, fmt::join(endings, " ")));
 }
 
+const Codec& codec_for_contents(InputFile& file) {
+    std::array<std::byte, 32> head;
+    const std::size_t count = file.read_some(head);
+    file.seek(0);
+    if (count == 0) file.fail("is empty");
+    for (const Codec* codec : codecs())
+        if (codec->recognises(std::span<const std::byte>(head).first(count))) return *codec;
+
+    std::vector<std::string_view> names;
+    for (const Codec* codec : codecs()) names.push_back(codec->name);
+    file.fail(fmt::format("is in no format that is known here, by its first bytes; known are {}",
+                          fmt::join(names, ", ")));
+}
+
+void note_misleading_name(const InputFile& file, const Codec& codec,
+                          std::vector<std::string>& notes) {
+    const std::string ending = lower_case_ending(file.name());
+    if (has_ending(codec, ending) || ending.empty()) return;
+    notes.push_back(fmt::format("is a {} file, whatever its name says", codec.name));
+}
+
+// Files of floats hold linear values; a user who knows better says so.
+bool floats_are_srgb(TexelFormat stored, Transfer transfer) {
+    return transfer == Transfer::srgb && entry(stored).is_float;
+}
+
+void make_linear(std::span<float> values, int channels) {
+    const bool has_alpha = channels == 2 || channels == 4;
+    const int colour_count = has_alpha ? channels - 1 : channels;
+    for (std::size_t i = 0; i < values.size(); i += channels)
+        for (int c = 0; c < colour_count; ++c) values[i + c] = srgb_to_linear(values[i + c]);
+}
+
 FileContents read_contents(InputFile& file, const ReadOptions& options) {
     const Codec& codec = codec_for_contents(file);
     try {
         FileContents contents = codec.read(file, options);
         contents.format = codec.name;
-        make_linear(contents, options.transfer);
-        const std::string ending = lower_case_ending(file.name());
-        if (!has_ending(codec, ending) && !ending.empty())
-            contents.notes.push_back(
-                fmt::format("is a {} file, whatever its name says", codec.name));
+        if (floats_are_srgb(contents.stored, options.transfer)) {
+            for (auto& faces : contents.levels)
+                for (Image& image : faces) make_linear(image.values(), image.channels());
+            contents.notes.emplace_back(kTakenAsSrgb);
+        }
+        note_misleading_name(file, codec, contents.notes);
         return contents;
     } catch (const std::bad_alloc&) {
         file.fail("needs more memory than there is");

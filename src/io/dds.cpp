@@ -195,7 +195,7 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     return contents;
 }
 
-void write(OutputFile& file, const FileContents& contents, const WriteOptions& options) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions& options) {
     require_halved_levels(file, contents);
     const Packing packing = packing_for(options.format);
     const auto* format = std::find_if(std::begin(kFormats), std::end(kFormats),
@@ -223,14 +223,9 @@ void write(OutputFile& file, const FileContents& contents, const WriteOptions& o
     file.write_value(kMagic);
     file.write_value(h);
     file.write_value(dx10);
-    std::vector<std::byte> bytes;
     for (int face = 0; face < face_count; ++face)
-        for (const std::vector<Image>& level : contents.levels) {
-            const Image& image = level[face];
-            bytes.resize(chain_bytes(packing, image.width(), image.height(), 1));
-            pack(packing, image, bytes);
-            file.write(bytes);
-        }
+        for (const std::vector<ContentsView::Picture>& level : contents.levels)
+            write_packed(file, packing, level[face]);
 }
 
 }  // namespace

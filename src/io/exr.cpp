@@ -37,8 +37,10 @@
 #include <mirrorball/error.h>
 
 #include "codec.h"
+#include "core/parallel.h"
 #include "edge_grid.h"
 #include "packed.h"
+#include "row_source.h"
 
 namespace mirrorball::detail {
 namespace {
@@ -261,17 +263,64 @@ void check_header(InputFile& file, const Imf::Header& header, const Picture& pic
                               chunk_texels));
 }
 
-// Float slices over an image whose first texel is at `window.min`.
-Imf::FrameBuffer frame_buffer(Image& image, const Picture& picture, const Box2i& window) {
+// Float slices over texels of which the first is at `origin`.
+Imf::FrameBuffer frame_buffer(float* values, int width, const Picture& picture, const V2i& origin,
+                              int height) {
     Imf::FrameBuffer buffer;
-    const std::size_t texel = sizeof(float) * image.channels();
-    for (int c = 0; c < image.channels(); ++c)
-        buffer.insert(
-            picture.channels[c],
-            Imf::Slice::Make(Imf::FLOAT, image.values().data() + c, window.min, image.width(),
-                             image.height(), texel, texel * image.width()));
+    const std::size_t texel = sizeof(float) * picture.channels.size();
+    for (std::size_t c = 0; c < picture.channels.size(); ++c)
+        buffer.insert(picture.channels[c],
+                      Imf::Slice::Make(Imf::FLOAT, values + c, origin, width, height, texel,
+                                       texel * static_cast<std::size_t>(width)));
     return buffer;
 }
+
+Imf::FrameBuffer frame_buffer(Image& image, const Picture& picture, const Box2i& window) {
+    return frame_buffer(image.values().data(), image.width(), picture, window.min, image.height());
+}
+
+// A part of a file opened several times over, to be decoded by all threads: OpenEXR's own threads
+// would be shared with whoever else uses the library in this process. Which of them decodes what
+// makes no difference to what comes out.
+class PartReaders {
+  public:
+    static constexpr int kCount = 4;
+
+    PartReaders(const InputFile& file, int part) {
+        for (auto& reader : readers_) reader = std::make_unique<Reader>(file, part);
+    }
+
+    /// Calls f(part, first, last) for ranges of rows that make up [begin, begin + count), with
+    /// boundaries between pieces of `piece` rows.
+    template <class F>
+    void for_each_range(int begin, int count, int piece, F&& f) {
+        const int first_piece = begin / piece, last_piece = (begin + count - 1) / piece + 1;
+        const int pieces = last_piece - first_piece;
+        parallel_for(kCount, [&](std::int64_t i) {
+            const auto boundary = [&](std::int64_t at) {
+                const std::int64_t row = (first_piece + pieces * at / kCount) * piece;
+                return static_cast<int>(
+                    std::clamp<std::int64_t>(row, begin, std::int64_t{begin} + count));
+            };
+            const int first = boundary(i), last = boundary(i + 1);
+            if (first < last) f(readers_[i]->part, first, last);
+        });
+    }
+
+  private:
+    struct Reader {
+        Reader(const InputFile& original, int index)
+            : file(original.another()),
+              stream(*file),
+              exr(stream, 0, false),
+              part(exr, index) {}
+        std::unique_ptr<InputFile> file;
+        Input stream;
+        Imf::MultiPartInputFile exr;
+        Imf::InputPart part;
+    };
+    std::array<std::unique_ptr<Reader>, kCount> readers_;
+};
 
 Image make_image(const Box2i& window, const Picture& picture) {
     return Image(static_cast<int>(width_of(window)), static_cast<int>(height_of(window)),
@@ -299,11 +348,14 @@ std::vector<Image> read_levels(const InputFile& file, Imf::MultiPartInputFile& e
         file.fail("is incomplete: some of its pixels were never written");
     std::vector<Image> levels;
     if (!has_levels(header)) {
-        Imf::InputPart part(exr, picture.part);
         const Box2i window = header.dataWindow();
         Image& image = levels.emplace_back(make_image(window, picture));
-        part.setFrameBuffer(frame_buffer(image, picture, window));
-        part.readPixels(window.min.y, window.max.y);
+        PartReaders readers(file, picture.part);
+        readers.for_each_range(0, image.height(), lines_per_chunk(header.compression()),
+                               [&](Imf::InputPart& part, int first, int last) {
+                                   part.setFrameBuffer(frame_buffer(image, picture, window));
+                                   part.readPixels(window.min.y + first, window.min.y + last - 1);
+                               });
         return levels;
     }
     Imf::TiledInputPart part(exr, picture.part);
@@ -449,9 +501,11 @@ FileContents read_picture(InputFile& file, const ReadOptions& options) {
     return contents;
 }
 
-FileContents read(InputFile& file, const ReadOptions& options) {
+// What the library throws, as what we throw.
+template <class F>
+auto in_our_words(const InputFile& file, F&& f) {
     try {
-        return read_picture(file, options);
+        return f();
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -459,6 +513,97 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     } catch (const std::exception& error) {
         file.fail(fmt::format("is no OpenEXR file that can be read ({})", error.what()));
     }
+}
+
+FileContents read(InputFile& file, const ReadOptions& options) {
+    return in_our_words(file, [&] { return read_picture(file, options); });
+}
+
+// Row by row --------------------------------------------------------------------------------------
+
+class ExrRows : public RowSource {
+  public:
+    ExrRows(InputFile& file, const Imf::MultiPartInputFile& exr, Picture picture,
+            FileContents contents)
+        : file_(file),
+          picture_(std::move(picture)),
+          window_(exr.header(picture_.part).dataWindow()) {
+        const Imf::Header& part = exr.header(picture_.part);
+        header.width = static_cast<int>(width_of(window_));
+        header.height = static_cast<int>(height_of(window_));
+        header.channels = static_cast<int>(picture_.channels.size());
+        header.stored = contents.stored;
+        header.metadata = std::move(contents.metadata);
+        header.notes = std::move(contents.notes);
+        piece_rows_ = part.hasTileDescription() ? static_cast<int>(part.tileDescription().ySize)
+                                                : lines_per_chunk(part.compression());
+        piece_rows_ = std::min(piece_rows_, header.height);
+        texel_bytes_ = texel_bytes(part.channels());
+    }
+
+    void read(int count, std::span<float> values) override {
+        in_our_words(file_, [&] {
+            read_lines(count, values);
+            return 0;
+        });
+        done_ += count;
+    }
+    [[nodiscard]] int rows_at_once() const override {
+        constexpr int kEnough = 64;
+        return std::max(kEnough / piece_rows_, PartReaders::kCount) * piece_rows_;
+    }
+    // A reader holds a piece as it is stored, the same unpacked, and the table of all pieces.
+    [[nodiscard]] std::uint64_t bytes_held() const override {
+        const double piece = double(header.width) * piece_rows_ * texel_bytes_;
+        const double table = 8.0 * header.height;
+        return static_cast<std::uint64_t>(PartReaders::kCount * (3 * piece + table));
+    }
+
+  private:
+    void read_lines(int count, std::span<float> values) {
+        if (!readers_) readers_.emplace(file_, picture_.part);
+        readers_->for_each_range(
+            done_, count, piece_rows_, [&](Imf::InputPart& part, int first, int last) {
+                const Imf::FrameBuffer buffer = frame_buffer(
+                    values.data() + static_cast<std::size_t>(first - done_) * values.size() / count,
+                    header.width, picture_, {window_.min.x, window_.min.y + first}, last - first);
+                part.setFrameBuffer(buffer);
+                part.readPixels(window_.min.y + first, window_.min.y + last - 1);
+            });
+    }
+
+    InputFile& file_;
+    Picture picture_;
+    Box2i window_;
+    std::optional<PartReaders> readers_;  // none before they are needed
+    int piece_rows_ = 1, done_ = 0;
+    double texel_bytes_ = 0;
+};
+
+std::unique_ptr<RowSource> open_rows(InputFile& file, const ReadOptions& options,
+                                     std::string& obstacle) {
+    return in_our_words(file, [&]() -> std::unique_ptr<RowSource> {
+        file.seek(0);
+        Input stream(file);
+        Imf::MultiPartInputFile exr(stream, 0, false);
+        FileContents contents;
+        Picture picture = choose_picture(file, exr, contents);
+        const Imf::Header& header = exr.header(picture.part);
+        if (Imf::hasEnvmap(header))
+            obstacle = "its envmap attribute says that it has its samples on texels' edges";
+        else if (header.dataWindow() != header.displayWindow())
+            obstacle = "its data window is not its display window";
+        if (!obstacle.empty()) return nullptr;
+
+        ReadOptions unlimited = options;
+        unlimited.memory_limit = kUnlimitedMemory;
+        check_header(file, header, picture, unlimited);
+        if (!exr.partComplete(picture.part))
+            file.fail("is incomplete: some of its pixels were never written");
+        read_attributes(header, contents);
+        contents.stored = picture.is_half ? TexelFormat::rgba16f : TexelFormat::rgba32f;
+        return std::make_unique<ExrRows>(file, exr, std::move(picture), std::move(contents));
+    });
 }
 
 // Writing -----------------------------------------------------------------------------------------
@@ -483,13 +628,13 @@ struct Pictures {
     std::optional<Imf::Envmap> environment;
 };
 
-bool is_latlong(const FileContents& contents) {
+bool is_latlong(const ContentsView& contents) {
     const Image& base = contents.levels.front().front();
     return contents.projection == Projection::equirect && contents.axes == kLatLongAxes &&
            base.height() >= 2 && base.width() == 2 * base.height();
 }
 
-Pictures arrange(const OutputFile& file, const FileContents& contents) {
+Pictures arrange(const OutputFile& file, const ContentsView& contents) {
     const std::size_t face_count = contents.levels.front().size();
     if (face_count != 1 && face_count != 6)
         file.fail(fmt::format("{} faces; OpenEXR files hold one picture or a cube", face_count));
@@ -499,9 +644,9 @@ Pictures arrange(const OutputFile& file, const FileContents& contents) {
         result.environment = Imf::ENVMAP_CUBE;
     else if (is_latlong(contents))
         result.environment = Imf::ENVMAP_LATLONG;
-    for (const std::vector<Image>& faces : contents.levels)
+    for (const std::vector<ContentsView::Picture>& faces : contents.levels)
         if (result.environment == Imf::ENVMAP_CUBE)
-            result.levels.push_back(paste_strip(cube_to_edge_grid(faces)));
+            result.levels.push_back(paste_strip(cube_to_edge_grid({faces.begin(), faces.end()})));
         else if (result.environment == Imf::ENVMAP_LATLONG)
             result.levels.push_back(equirect_to_edge_grid(faces.front()));
         else
@@ -535,7 +680,7 @@ std::vector<std::string> channel_names(int channels) {
     }
 }
 
-Imf::Header make_header(const FileContents& contents, const Pictures& pictures,
+Imf::Header make_header(const ContentsView& contents, const Pictures& pictures,
                         const WriteOptions& options) {
     const Image& base = pictures.levels.front();
     Imf::Header header(base.width(), base.height());
@@ -608,7 +753,7 @@ void write_levels(Output& stream, const Imf::Header& header, const std::vector<I
     }
 }
 
-void write(OutputFile& file, const FileContents& contents, const WriteOptions& options) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions& options) {
     const Pictures pictures = arrange(file, contents);
     require_exr_levels(file, pictures.levels);
     try {
@@ -636,6 +781,7 @@ const Codec kExr = {
     .write = write,
     .holds_cubes = true,
     .holds_levels = true,
+    .open_rows = open_rows,
 };
 
 }  // namespace mirrorball::detail

@@ -122,6 +122,12 @@ bool write_fully(int descriptor, std::span<const std::byte> bytes, off_t offset)
     return true;
 }
 
+// Lets the disk begin with what commit() will wait for, while the rest is made. Only a hint.
+void begin_to_sync(int descriptor, std::uint64_t offset, std::uint64_t size) {
+    sync_file_range(descriptor, static_cast<off64_t>(offset), static_cast<off64_t>(size),
+                    SYNC_FILE_RANGE_WRITE);
+}
+
 // The count of bytes read, fewer than asked for only at the end of the file; -1 and errno.
 ssize_t read_fully(int descriptor, std::span<std::byte> out, std::uint64_t offset) {
     std::size_t done = 0;
@@ -205,12 +211,38 @@ std::size_t InputFile::read_some(std::span<std::byte> out) {
     return done;
 }
 
-// Makes memory_ the part of the file that begins at position_.
-void InputFile::fill() {
-    if (buffer_.empty()) buffer_.resize(std::min<std::uint64_t>(kBufferSize, size_));
+std::span<const std::byte> InputFile::look_ahead(std::size_t count) {
+    const std::size_t wanted = std::min<std::uint64_t>(count, remaining());
+    const bool begins_there =
+        position_ >= memory_start_ && position_ - memory_start_ <= memory_.size();
+    const bool there = begins_there && memory_.size() - (position_ - memory_start_) >= wanted;
+    if (!there) fill(wanted);
+    return memory_.subspan(static_cast<std::size_t>(position_ - memory_start_), wanted);
+}
+
+std::unique_ptr<InputFile> InputFile::another() const {
+    int descriptor = -1;
+    if (descriptor_ >= 0) {
+        descriptor = fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+        if (descriptor < 0) fail(fmt::format("cannot be opened ({})", reason(errno)));
+    }
+    return std::unique_ptr<InputFile>(new InputFile(*this, descriptor));
+}
+
+InputFile::InputFile(const InputFile& other, int descriptor)
+    : name_(other.name_),
+      descriptor_(descriptor),
+      size_(other.size_),
+      memory_(descriptor < 0 ? other.memory_ : std::span<const std::byte>()) {}
+
+// Makes memory_ the part of the file that begins at position_, of `least` bytes or more.
+void InputFile::fill(std::size_t least) {
+    const std::size_t usual = std::min<std::uint64_t>(kBufferSize, size_);
+    if (buffer_.size() < std::max(usual, least)) buffer_.resize(std::max(usual, least));
     const ssize_t count = read_fully(descriptor_, buffer_, position_);
     if (count < 0) fail(fmt::format("cannot be read ({})", reason(errno)));
-    if (count == 0) fail(fmt::format("became shorter than {} bytes while it was read", size_));
+    if (count < static_cast<ssize_t>(least))
+        fail(fmt::format("became shorter than {} bytes while it was read", size_));
     memory_ = std::span<const std::byte>(buffer_).first(static_cast<std::size_t>(count));
     memory_start_ = position_;
 }
@@ -290,6 +322,7 @@ void OutputFile::write(std::span<const std::byte> bytes) {
     if (bytes.size() > kBufferSize) {
         if (!write_fully(descriptor_, bytes, static_cast<off_t>(position_)))
             fail_with_reason("cannot be written");
+        begin_to_sync(descriptor_, position_, bytes.size());
     } else {
         buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
     }

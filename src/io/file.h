@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,6 +34,12 @@ class InputFile {
     /// As many bytes as there are; the count.
     std::size_t read_some(std::span<std::byte> out);
 
+    /// The next `count` bytes without passing over them, fewer at the end of the file. Valid until
+    /// anything else is read.
+    std::span<const std::byte> look_ahead(std::size_t count);
+    /// The same file, at its beginning, to be read by another thread.
+    [[nodiscard]] std::unique_ptr<InputFile> another() const;
+
     /// The next byte; inline, because run-length decoders ask for one at a time.
     std::byte read_byte() {
         const std::uint64_t offset = position_ - memory_start_;  // wraps where before the buffer
@@ -52,7 +59,8 @@ class InputFile {
     [[noreturn]] void fail(const std::string& what) const;
 
   private:
-    void fill();
+    InputFile(const InputFile& other, int descriptor);
+    void fill(std::size_t least = 1);
 
     std::string name_;
     int descriptor_ = -1;

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "codec.h"
+#include "core/parallel.h"
+#include "row_source.h"
 
 namespace mirrorball::detail {
 namespace {
@@ -65,6 +67,21 @@ std::optional<T> number(std::string_view text) {
     return value;
 }
 
+// All planes of a scanline, from runs that end where they should.
+void expand_runs(const std::uint8_t* from, std::span<std::uint8_t> planes) {
+    for (std::size_t x = 0; x < planes.size();) {
+        const std::uint8_t code = *from++;
+        if (code > 128) {
+            std::memset(&planes[x], *from++, code - 128u);
+            x += code - 128u;
+        } else {
+            std::memcpy(&planes[x], from, code);
+            from += code;
+            x += code;
+        }
+    }
+}
+
 // Linear Rec. 709 from XYZ with a white of D65, IEC 61966-2-1.
 void rgb_from_xyz(std::span<float> texels) {
     for (std::size_t i = 0; i < texels.size(); i += 3) {
@@ -104,7 +121,6 @@ HdrReader::HdrReader(InputFile& file) : file_(file) {
     read_header();
     read_resolution();
     check_length_of_file();
-    planes_.resize(std::size_t{4} * length_);
     for (int c = 0; c < 3; ++c) divisor_[c] = static_cast<float>(exposure_ * colour_correction_[c]);
     for (const float divisor : divisor_)
         if (!std::isnormal(divisor))
@@ -223,27 +239,87 @@ std::string HdrReader::read_line() {
     return line;
 }
 
-void HdrReader::read_scanline(std::span<float> rgb) {
+// Where a run ends is known as soon as its count is, so that a first walk through the file, which
+// is quick, finds where each scanline begins; then they are decoded independently.
+void HdrReader::read_scanlines(std::span<float> rgb) {
+    const std::size_t row_size = std::size_t{3} * length_;
+    const std::size_t count = rgb.size() / row_size;
+    gathered_.clear();
+    bytes_.clear();
+    for (std::size_t i = 0; i < count; ++i) gather_scanline();
+
+    parallel_for(static_cast<std::int64_t>(count), [&](std::int64_t i) {
+        const std::span<float> row = rgb.subspan(i * row_size, row_size);
+        const std::uint8_t* bytes = &bytes_[gathered_[i].begin];
+        if (!gathered_[i].in_runs) return convert({bytes, std::size_t{4} * length_}, row);
+        thread_local std::vector<std::uint8_t> planes;
+        planes.resize(std::size_t{4} * length_);
+        expand_runs(bytes, planes);
+        convert(planes, row);
+    });
+}
+
+std::uint64_t HdrReader::bytes_held(int count) const {
+    // runs of one texel take two bytes of every plane
+    return std::uint64_t{8} * length_ * (count + std::uint64_t{1});
+}
+
+void HdrReader::gather_scanline() {
+    const std::size_t planes_size = std::size_t{4} * length_;
+    const std::size_t begin = bytes_.size();
+    std::optional<Rgbe> first;
     if (length_allows_runs(length_)) {
-        const Rgbe first = read_texel();
-        if (begins_runs(first)) {
-            if (const int stated = first[2] * 256 + first[3]; stated != length_)
+        first = read_texel();
+        if (begins_runs(*first)) {
+            if (const int stated = (*first)[2] * 256 + (*first)[3]; stated != length_)
                 file_.fail(fmt::format("has a scanline of {} texels before byte {} ({} expected)",
                                        stated, file_.position(), length_));
-            read_runs();
-        } else {
-            read_texels(first);
+            if (gather_runs_unread()) {
+                gathered_.push_back({begin, true});
+                return;
+            }
         }
-    } else {
-        read_texels(std::nullopt);
     }
+    gathered_.push_back({begin, false});
+    bytes_.resize(begin + planes_size);
+    const std::span<std::uint8_t> planes = std::span(bytes_).subspan(begin);
+    if (first && begins_runs(*first))
+        read_runs(planes);
+    else
+        read_texels(first, planes);
+}
 
+// Takes a scanline's runs as they are. False, and nothing is taken, if one does not end where it
+// should or the file does before; read_runs() finds out which.
+bool HdrReader::gather_runs_unread() {
+    const std::span<const std::byte> ahead =
+        file_.look_ahead(std::size_t{8} * length_);  // the most that a scanline can take
+    std::size_t at = 0;
+    for (int c = 0; c < 4; ++c) {
+        for (std::size_t left = length_; left > 0;) {
+            if (at >= ahead.size()) return false;
+            const auto code = static_cast<std::size_t>(ahead[at]);
+            const std::size_t count = code > 128 ? code - 128 : code;
+            if (count == 0 || count > left) return false;
+            at += code > 128 ? 2 : 1 + count;
+            left -= count;
+        }
+    }
+    if (at > ahead.size()) return false;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(ahead.data());
+    bytes_.insert(bytes_.end(), bytes, bytes + at);
+    file_.seek(file_.position() + at);
+    return true;
+}
+
+void HdrReader::convert(std::span<const std::uint8_t> planes, std::span<float> rgb) const {
     const std::array<float, 256>& scale = scales();
-    const std::uint8_t* plane = planes_.data();
+    const std::uint8_t *red = planes.data(), *green = red + length_, *blue = green + length_,
+                       *exponents = blue + length_;
     for (int x = 0; x < length_; ++x) {
-        const float s = scale[plane[x + std::size_t{3} * length_]];
-        for (int c = 0; c < 3; ++c)
-            rgb[std::size_t{3} * x + c] = plane[static_cast<std::size_t>(c) * length_ + x] * s;
+        const float s = scale[exponents[x]];
+        float* texel = &rgb[std::size_t{3} * x];
+        texel[0] = red[x] * s, texel[1] = green[x] * s, texel[2] = blue[x] * s;
     }
     if (divisor_ != std::array<float, 3>{1, 1, 1})
         for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] /= divisor_[i % 3];
@@ -257,10 +333,10 @@ Rgbe HdrReader::read_texel() {
 }
 
 // Each component on its own: a count over 128 repeats the next byte, one up to 128 copies bytes.
-void HdrReader::read_runs() {
+void HdrReader::read_runs(std::span<std::uint8_t> planes) {
     for (int c = 0; c < 4; ++c) {
         const std::span<std::uint8_t> plane =
-            std::span(planes_).subspan(static_cast<std::size_t>(c) * length_, length_);
+            planes.subspan(static_cast<std::size_t>(c) * length_, length_);
         for (std::size_t x = 0; x < plane.size();) {
             const auto code = static_cast<std::size_t>(file_.read_byte());
             const std::size_t count = code > 128 ? code - 128 : code;
@@ -280,7 +356,7 @@ void HdrReader::read_runs() {
 
 // Plain texels, and among them the older coding's repeats; repeats in a row are digits, lowest
 // first.
-void HdrReader::read_texels(std::optional<Rgbe> first) {
+void HdrReader::read_texels(std::optional<Rgbe> first, std::span<std::uint8_t> planes) {
     Rgbe last{};
     int shift = 0;
     for (int x = 0; x < length_;) {
@@ -301,7 +377,7 @@ void HdrReader::read_texels(std::optional<Rgbe> first) {
             shift = 0;
         }
         for (int c = 0; c < 4; ++c)
-            std::memset(&planes_[static_cast<std::size_t>(c) * length_] + x, last[c],
+            std::memset(&planes[static_cast<std::size_t>(c) * length_] + x, last[c],
                         static_cast<std::size_t>(count));
         x += static_cast<int>(count);
     }
@@ -383,11 +459,17 @@ bool recognises(std::span<const std::byte> head) {
     return text.starts_with("#?RADIANCE") || text.starts_with("#?RGBE");
 }
 
+// Enough for every thread to have some, few enough to stay in its cache.
+constexpr int kScanlinesAtOnce = 64;
+
 FileContents read(InputFile& file, const ReadOptions& options) {
     HdrReader reader(file);
     check_claim(file, reader.length(), reader.scanline_count(), 3, 1, 0, options);
     Image image(reader.length(), reader.scanline_count(), 3);
-    for (int y = 0; y < image.height(); ++y) reader.read_scanline(image.row(y));
+    for (int y = 0; y < image.height(); y += kScanlinesAtOnce) {
+        const int count = std::min(kScanlinesAtOnce, image.height() - y);
+        reader.read_scanlines({image.at(0, y), image.row(y).size() * count});
+    }
 
     FileContents contents;
     contents.stored = TexelFormat::rgbe8;
@@ -397,8 +479,43 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     return contents;
 }
 
+class HdrRows : public RowSource {
+  public:
+    explicit HdrRows(InputFile& file) : reader_(file) {
+        header.width = reader_.length();
+        header.height = reader_.scanline_count();
+        header.stored = TexelFormat::rgbe8;
+        header.metadata = reader_.metadata();
+        header.notes = reader_.notes();
+    }
+    [[nodiscard]] Orientation orientation() const { return reader_.orientation(); }
+
+    void read(int, std::span<float> values) override {
+        reader_.read_scanlines(values);
+        if (!reader_.orientation().flipped_x) return;
+        const std::size_t row_size = std::size_t{3} * header.width;
+        for (std::size_t begin = 0; begin < values.size(); begin += row_size)
+            for (std::size_t a = begin, b = begin + row_size - 3; a < b; a += 3, b -= 3)
+                std::swap_ranges(&values[a], &values[a] + 3, &values[b]);
+    }
+    [[nodiscard]] int rows_at_once() const override { return kScanlinesAtOnce; }
+    [[nodiscard]] std::uint64_t bytes_held() const override {
+        return reader_.bytes_held(kScanlinesAtOnce);
+    }
+
+  private:
+    HdrReader reader_;
+};
+
+std::unique_ptr<RowSource> open_rows(InputFile& file, const ReadOptions&, std::string& obstacle) {
+    auto rows = std::make_unique<HdrRows>(file);
+    if (!rows->orientation().transposed && !rows->orientation().flipped_y) return rows;
+    obstacle = "its scanlines do not run from the top to the bottom";
+    return nullptr;
+}
+
 // One and two channels are grey, and grey with alpha; alpha is dropped, which the format has not.
-void write(OutputFile& file, const FileContents& contents, const WriteOptions&) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions&) {
     const Image& image = contents.levels.front().front();
     const int channels = image.channels();
     HdrWriter writer(file, image.width(), image.height(), contents.metadata);
@@ -413,7 +530,14 @@ void write(OutputFile& file, const FileContents& contents, const WriteOptions&) 
 
 }  // namespace
 
-const Codec kHdr{"Radiance HDR", {".hdr", ".rgbe", ".pic"}, {TexelFormat::rgbe8}, recognises, read,
-                 write};
+const Codec kHdr{"Radiance HDR",
+                 {".hdr", ".rgbe", ".pic"},
+                 {TexelFormat::rgbe8},
+                 recognises,
+                 read,
+                 write,
+                 false,
+                 false,
+                 open_rows};
 
 }  // namespace mirrorball::detail

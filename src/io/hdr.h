@@ -38,9 +38,13 @@ class HdrReader {
     /// Of the picture whose rows are the scanlines; nearly always it is upright.
     [[nodiscard]] Orientation orientation() const { return orientation_; }
 
-    /// The next scanline, three values per texel: scene-linear RGB, exposure divided out.
-    /// \pre rgb.size() == 3 * length(), and fewer than scanline_count() were read
-    void read_scanline(std::span<float> rgb);
+    /// The next scanlines, three values per texel: scene-linear RGB, exposure divided out. Many at
+    /// once are decoded by all threads.
+    /// \pre rgb.size() is a multiple of 3 * length(), and as many scanlines are left to read
+    void read_scanlines(std::span<float> rgb);
+
+    /// Bytes held while `count` scanlines are read at once, at most.
+    [[nodiscard]] std::uint64_t bytes_held(int count) const;
 
     [[nodiscard]] const Metadata& metadata() const { return metadata_; }
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
@@ -52,8 +56,13 @@ class HdrReader {
     void check_length_of_file() const;
     std::string read_line();
     std::array<std::uint8_t, 4> read_texel();
-    void read_runs();
-    void read_texels(std::optional<std::array<std::uint8_t, 4>> first);
+    // Of one scanline, behind those gathered before.
+    void gather_scanline();
+    bool gather_runs_unread();
+    void read_runs(std::span<std::uint8_t> planes);
+    void read_texels(std::optional<std::array<std::uint8_t, 4>> first,
+                     std::span<std::uint8_t> planes);
+    void convert(std::span<const std::uint8_t> planes, std::span<float> rgb) const;
 
     InputFile& file_;
     int length_ = 0, scanline_count_ = 0;
@@ -62,7 +71,14 @@ class HdrReader {
     double exposure_ = 1;
     std::array<double, 3> colour_correction_{1, 1, 1};
     std::array<float, 3> divisor_{1, 1, 1};  // the product of both
-    std::vector<std::uint8_t> planes_;       // a scanline: all red, green, blue, all exponents
+
+    // Scanlines on their way: as runs, or decoded to planes (all red, green, blue, all exponents).
+    struct Gathered {
+        std::size_t begin;
+        bool in_runs;
+    };
+    std::vector<Gathered> gathered_;
+    std::vector<std::uint8_t> bytes_;
     Metadata metadata_;
     std::vector<std::string> notes_;
 };

@@ -438,6 +438,16 @@ FileContents read(InputFile& file, const ReadOptions& options) {
 
 // Writing -----------------------------------------------------------------------------------------
 
+std::vector<std::byte> packed_faces(Packing packing,
+                                    const std::vector<ContentsView::Picture>& faces) {
+    const Image& first = faces.front();
+    const std::uint64_t face_bytes = level_bytes(packing, 1, first.width(), first.height());
+    std::vector<std::byte> bytes(face_bytes * faces.size());
+    for (std::size_t face = 0; face < faces.size(); ++face)
+        pack(packing, faces[face], std::span(bytes).subspan(face * face_bytes, face_bytes));
+    return bytes;
+}
+
 std::vector<std::byte> compress(const OutputFile& file, std::span<const std::byte> bytes) {
     constexpr int kEffort = 9;  // of 19: twice as slow as the default 3 and a few per cent smaller
     std::vector<std::byte> packed(ZSTD_compressBound(bytes.size()));
@@ -461,7 +471,7 @@ void write_header(OutputFile& file, const Header& h) {
     file.write_value(h.global_length);
 }
 
-void write(OutputFile& file, const FileContents& contents, const WriteOptions& options) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions& options) {
     require_halved_levels(file, contents);
     const Packing packing = packing_for(options.format);
     const Format& format = format_for(packing);
@@ -491,21 +501,18 @@ void write(OutputFile& file, const FileContents& contents, const WriteOptions& o
     file.write(descriptor);
     file.write(key_values);
 
-    std::vector<std::byte> bytes;
     for (int level = level_count - 1; level >= 0; --level) {
-        const std::vector<Image>& faces = contents.levels[level];
-        const std::uint64_t face_bytes =
-            level_bytes(packing, 1, faces.front().width(), faces.front().height());
-        bytes.resize(face_bytes * faces.size());
-        for (std::size_t face = 0; face < faces.size(); ++face)
-            pack(packing, faces[face], std::span(bytes).subspan(face * face_bytes, face_bytes));
-
+        const std::vector<ContentsView::Picture>& faces = contents.levels[level];
         pad_to(file, level_alignment(packing, h.supercompression));
-        entries[level].offset = file.position();
-        entries[level].unpacked_length = bytes.size();
-        if (h.supercompression == kZstandard) bytes = compress(file, bytes);
-        entries[level].length = bytes.size();
-        file.write(bytes);
+        LevelEntry& entry = entries[level];
+        entry.offset = file.position();
+        entry.unpacked_length = level_bytes(packing, face_count, level_size(base.width(), level),
+                                            level_size(base.height(), level));
+        if (h.supercompression == kZstandard)
+            file.write(compress(file, packed_faces(packing, faces)));
+        else
+            for (const Image& face : faces) write_packed(file, packing, face);
+        entry.length = file.position() - entry.offset;
     }
     const std::uint64_t end = file.position();
     file.seek(kLevelIndexOffset);

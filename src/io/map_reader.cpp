@@ -1,9 +1,7 @@
 // read_map(): from a name to a map, in four steps.
 //
 //     gather   open the file or files; every face or picture that there is, as stored
-//     decide   which projection, and how its faces lie: the user's word before the file's, the
-//     file's
-//              before what its shape suggests; a shape that contradicts any of them is an error
+//     decide   which projection, and how its faces lie (map_shape.h)
 //     unfold   cut out the ball and the faces, as three channels
 //     check    sizes of all levels, texels that cannot be light
 #include <algorithm>
@@ -19,6 +17,7 @@
 #include "face_words.h"
 #include "layout.h"
 #include "map_metadata.h"
+#include "map_shape.h"
 #include "repair.h"
 
 namespace mirrorball {
@@ -116,178 +115,6 @@ Gathered gather(const std::string& source, const MapReadOptions& options) {
         return gather_faces(split_face_list(source), options);
     }
     return {read_file(source, options), std::nullopt};
-}
-
-// Decide
-// --------------------------------------------------------------------------------------------
-
-// What the pictures are. `layout` is automatic where each face is a picture of its own.
-struct Shape {
-    Projection projection;
-    Layout layout;
-};
-
-class Decision {
-  public:
-    Decision(const std::string& source, const Gathered& gathered, const MapWords& words,
-             const MapReadOptions& options)
-        : source_(source),
-          contents_(gathered.contents),
-          words_(words),
-          options_(options) {
-        const Image& base = contents_.levels[0][0];
-        width_ = options.crop ? crop_size(*options.crop) : base.width();
-        height_ = options.crop ? width_ : base.height();
-        files_word_ = words.projection;
-        if (!files_word_) files_word_ = contents_.projection;
-        if (!files_word_) files_word_ = gathered.by_names;
-    }
-
-    Shape make(std::vector<std::string>& notes) {
-        if (contents_.levels[0].size() > 1) return separate_faces();
-
-        std::optional<Projection> projection = users_word();
-        if (projection && files_word_ && *projection != *files_word_) {
-            notes.push_back(fmt::format("the file says that it is {}; read as {}, as asked",
-                                        map_in_words(*files_word_), map_in_words(*projection)));
-        }
-        if (!projection) projection = files_word_;
-        if (!projection) return guess(notes);
-        return face_count(*projection) == 1 ? single_picture(*projection)
-                                            : faces_in_picture(*projection);
-    }
-
-  private:
-    [[noreturn]] void fail(Errc code, const std::string& what) const {
-        throw Error(code, fmt::format("{}: {}", source_, what));
-    }
-    [[noreturn]] void fail_shape(const std::string& what) const {
-        fail(Errc::cannot_read, fmt::format("{} x {} {}", width_, height_, what));
-    }
-
-    // The user's word for the projection, which a layout is too.
-    [[nodiscard]] std::optional<Projection> users_word() const {
-        if (options_.layout == Layout::automatic || options_.layout == Layout::single) {
-            return options_.projection;
-        }
-        const Projection projection = arrangement(options_.layout).projection;
-        if (options_.projection && *options_.projection != projection) {
-            fail(Errc::usage,
-                 fmt::format("the layout {} is one of {} maps, not of {}", name(options_.layout),
-                             name(projection), map_in_words(*options_.projection)));
-        }
-        return projection;
-    }
-
-    [[nodiscard]] Shape separate_faces() const {
-        const std::size_t count = contents_.levels[0].size();
-        if (count != 6 && count != 2) {
-            fail(Errc::cannot_read, fmt::format("holds {} faces; expected 6 of a cube", count));
-        }
-        const Projection projection = count == 6 ? Projection::cube : Projection::dual_paraboloid;
-        const auto contradicts = [&](const std::optional<Projection>& said) {
-            return said && *said != projection;
-        };
-        const std::string what = fmt::format("{} faces are {}", count, map_in_words(projection));
-        if (contradicts(users_word())) {
-            fail(Errc::usage, fmt::format("{}, not {}", what, map_in_words(*users_word())));
-        }
-        if (contradicts(files_word_)) {
-            fail(Errc::cannot_read,
-                 fmt::format("{}, and the file says {}", what, map_in_words(*files_word_)));
-        }
-        if (options_.layout != Layout::automatic) {
-            fail(Errc::usage, fmt::format("each face is a picture of its own, in no layout {}",
-                                          name(options_.layout)));
-        }
-        if (options_.crop) fail(Errc::usage, "a circle can be cropped from one picture only");
-        return {projection, Layout::automatic};
-    }
-
-    [[nodiscard]] Shape single_picture(Projection projection) const {
-        if (options_.crop && projection != Projection::sphere &&
-            projection != Projection::angular) {
-            fail(Errc::usage, fmt::format("only sphere and angular maps are cropped to a circle, "
-                                          "not {}",
-                                          map_in_words(projection)));
-        }
-        if (width_ != std::int64_t{aspect(projection)} * height_) {
-            fail_shape(fmt::format("is not {} ({})", map_in_words(projection),
-                                   aspect(projection) == 2 ? "its width must be twice its height"
-                                                           : "it must be square"));
-        }
-        return {projection, Layout::single};
-    }
-
-    [[nodiscard]] Shape faces_in_picture(Projection projection) const {
-        if (options_.crop || options_.layout == Layout::single) {
-            fail(Errc::usage, fmt::format("{} has {} faces, not {}", map_in_words(projection),
-                                          face_count(projection),
-                                          options_.crop ? "a circle to crop" : "a single one"));
-        }
-        Layout layout = options_.layout;
-        if (layout == Layout::automatic && words_.layout && *words_.layout != Layout::single &&
-            *words_.layout != Layout::automatic &&
-            arrangement(*words_.layout).projection == projection) {
-            layout = *words_.layout;
-        }
-        if (layout == Layout::automatic) {
-            const std::optional<Layout> found = layout_by_shape(projection, width_, height_);
-            if (found) return {projection, *found};
-            fail_shape(fmt::format("is not {} in one picture ({})", map_in_words(projection),
-                                   projection == Projection::cube
-                                       ? "crosses are 4:3 and 3:4, strips 6:1 and 1:6"
-                                       : "side by side they are 2:1"));
-        }
-        if (!fits(arrangement(layout), width_, height_)) {
-            fail_shape(fmt::format("is not {}", shape_in_words(arrangement(layout))));
-        }
-        return {projection, layout};
-    }
-
-    // By shape alone.
-    [[nodiscard]] Shape guess(std::vector<std::string>& notes) const {
-        if (options_.crop) {
-            fail(Errc::usage,
-                 "a picture cropped to a circle may be a sphere map (a photograph of a "
-                 "mirror ball) or an angular map; say which (--from)");
-        }
-        if (width_ == height_) {
-            fail(Errc::usage,
-                 fmt::format("{} x {} is square: it may be a sphere, angular, octahedral or "
-                             "equal-area-octahedral map; say which (--from)",
-                             width_, height_));
-        }
-        if (width_ == 2 * std::int64_t{height_}) {
-            notes.push_back("taken for an equirect map, by its 2:1 shape");
-            return {Projection::equirect, Layout::single};
-        }
-        const std::optional<Layout> layout = layout_by_shape(Projection::cube, width_, height_);
-        if (!layout || options_.layout == Layout::single) {
-            fail_shape(
-                "is the shape of no environment map (equirect maps are 2:1, cube crosses "
-                "4:3 and 3:4, cube strips 6:1 and 1:6, others square)");
-        }
-        notes.push_back(fmt::format("taken for a cube map in a {}, by its shape", name(*layout)));
-        return {Projection::cube, *layout};
-    }
-
-    const std::string& source_;
-    const FileContents& contents_;
-    const MapWords& words_;
-    const MapReadOptions& options_;
-    int width_, height_;  // of the picture, or of what is cut from it
-    std::optional<Projection> files_word_;
-};
-
-Axes decide_axes(Projection projection, const FileContents& contents, const MapWords& words,
-                 const MapReadOptions& options) {
-    if (!options.axes.empty()) return parse_axes(options.axes, projection);
-    if (words.axes) return parse_axes(*words.axes, projection);
-    // a format's axes are those of the projection that it says
-    const bool formats_projection = !contents.projection || *contents.projection == projection;
-    if (contents.axes && formats_projection) return *contents.axes;
-    return default_axes(projection);
 }
 
 // Unfold
@@ -390,29 +217,16 @@ void check_levels(const std::string& source, const FileContents& contents, const
     }
 }
 
-// "1 texel is", "5 texels are".
-std::string texels_in_words(std::int64_t count, std::string_view one, std::string_view more) {
-    return fmt::format("{} texel{}", count, count == 1 ? one : more);
-}
-
 void check_finite(const std::string& source, EnvironmentMap& map, int level,
                   const TexelFaults& faults, bool repairing, std::vector<std::string>& notes) {
     if (faults.non_finite_count == 0) return;
-    const auto [face, x, y] = faults.first_non_finite;
-    const std::string found = fmt::format("{} no number (NaN or infinite), the first {}",
-                                          texels_in_words(faults.non_finite_count, " is", "s are"),
-                                          texel_in_words(map.projection, level, face, x, y));
-    if (!repairing) {
-        throw Error(
-            Errc::cannot_read,
-            fmt::format("{}: {}; --repair replaces them by their neighbours", source, found));
-    }
-    const std::int64_t repaired_count = repair(map.levels[level], map.projection);
-    if (repaired_count != faults.non_finite_count) {
-        throw Error(Errc::cannot_read,
-                    fmt::format("{}: {}; there is no good one to replace them by", source, found));
-    }
-    notes.push_back(fmt::format("{}; replaced by the mean of the neighbours", found));
+    const auto fail = [&](const std::string& what) {
+        throw Error(Errc::cannot_read, fmt::format("{}: {}", source, what));
+    };
+    if (!repairing) fail(non_finite_in_words(map.projection, level, faults));
+    if (repair(map.levels[level], map.projection) != faults.non_finite_count)
+        fail(beyond_repair_in_words(map.projection, level, faults));
+    notes.push_back(repaired_in_words(map.projection, level, faults));
 }
 
 void check_texels(const std::string& source, EnvironmentMap& map, bool repairing,
@@ -421,12 +235,7 @@ void check_texels(const std::string& source, EnvironmentMap& map, bool repairing
         clear_unused_faults(map.levels[level], map.projection);
         const TexelFaults faults = find_faults(map.levels[level], map.projection);
         check_finite(source, map, level, faults, repairing, notes);
-        if (faults.negative_count > 0) {
-            notes.push_back(
-                fmt::format("{} negative, down to {}{}; kept",
-                            texels_in_words(faults.negative_count, " is", "s are"), faults.smallest,
-                            level > 0 ? fmt::format(", in level {}", level) : std::string()));
-        }
+        if (faults.negative_count > 0) notes.push_back(negative_in_words(level, faults));
     }
 }
 
@@ -475,19 +284,21 @@ LoadedMap load(const std::string& source, const MapReadOptions& options) {
     loaded.metadata = contents.metadata;
     loaded.notes = contents.notes;
 
-    const Shape shape = Decision(source, gathered, words, options).make(loaded.notes);
+    const Image& base = contents.levels[0][0];
+    const StoredPictures stored{contents.levels[0].size(), base.width(),  base.height(),
+                                contents.projection,       contents.axes, gathered.by_names};
+    const Shape shape = decide_shape(source, stored, words, options, loaded.notes);
     check_levels(source, contents, shape, options);
     check_memory(source, bytes_of(contents) + unfolding_bytes(contents, shape, options),
                  options.memory_limit);
     loaded.map.projection = shape.projection;
-    loaded.map.axes = decide_axes(shape.projection, contents, words, options);
+    loaded.map.axes = decide_axes(shape.projection, stored, words, options);
 
     const bool opaque = std::all_of(contents.levels.begin(), contents.levels.end(),
                                     [](const std::vector<Image>& faces) {
                                         return std::all_of(faces.begin(), faces.end(), is_opaque);
                                     });
-    if (!opaque)
-        loaded.notes.push_back("its alpha channel, which is not 1 everywhere, was dropped");
+    if (!opaque) loaded.notes.emplace_back(kAlphaDropped);
 
     loaded.map.levels = unfold(contents, shape, options);
     apply_lobes(words, loaded.map, source);

@@ -1,17 +1,21 @@
 // write_map(): a map as the formats take it - one picture, six faces, or a file for each face.
 //
-// Each face is copied, clamped to what the texel format holds and put in its place; so the caller's
-// map stays as it is, and what a clamp cuts off is known where its solid angle is.
+// A face that the texel format can hold is written from where it is. Any other is copied and
+// clamped to what the format holds, so that the caller's map stays as it is, and what a clamp cuts
+// off is known where its solid angle is.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 #include <mirrorball/error.h>
 
+#include "all_within.h"
 #include "codec.h"
+#include "core/parallel.h"
 #include "face_pattern.h"
 #include "face_words.h"
 #include "layout.h"
@@ -22,7 +26,7 @@ namespace mirrorball {
 namespace detail {
 namespace {
 
-// Copies faces within the range of a texel format, and keeps account of what it cuts off.
+// Gives faces within the range of a texel format, and keeps account of what it cuts off.
 class FaceEncoder {
   public:
     FaceEncoder(const EnvironmentMap& map, TexelFormat format, std::string target)
@@ -34,19 +38,26 @@ class FaceEncoder {
               {largest_value(format, 0), largest_value(format, 1), largest_value(format, 2)})),
           lost_flux_(map.levels.size(), Vec3d(0, 0, 0)) {}
 
-    /// The face as the format holds it. Unused texels are 0.
-    Image encode(int level, int face) {
-        Image image = map_.levels[level].faces[face];
-        if (has_unused_texels(map_.projection)) clear_unused(image);
-        for (int y = 0; y < image.height(); ++y) {
-            // most rows need no texel looked at; NaN is in no range
-            const std::span<const float> row = image.row(y);
-            const bool in_range = std::all_of(row.begin(), row.end(), [this](float value) {
-                return value >= lowest_ && value <= largest_;
-            });
-            if (!in_range) clamp_row(image, level, face, y);
-        }
+    /// The face as the format holds it: the map's own, or a copy that lives as long as this. Unused
+    /// texels are 0.
+    const Image& encode(int level, int face) {
+        const Image& original = map_.levels[level].faces[face];
+        const std::vector<int> rows = rows_beyond_range(original);
+        const bool has_unused = has_unused_texels(map_.projection);
+        if (rows.empty() && !has_unused) return original;
+        Image& image = copies_.emplace_back(original);
+        if (has_unused) clear_unused(image);
+        for (const int y : rows) clamp_row(image, level, face, y);
         return image;
+    }
+
+    /// All faces of a level in one picture.
+    const Image& pasted(int level, const Arrangement& a) {
+        const int size = map_.height(level);
+        Image picture(a.columns * size, a.rows * size, 3);
+        for (int face = 0; face < face_count(map_.projection); ++face)
+            paste_face(picture, encode(level, face), a, face);
+        return copies_.emplace_back(std::move(picture));
     }
 
     /// The flux is that of the level that loses most: each level is a whole sphere.
@@ -63,6 +74,18 @@ class FaceEncoder {
     }
 
   private:
+    // From the top.
+    [[nodiscard]] std::vector<int> rows_beyond_range(const Image& image) const {
+        std::vector<unsigned char> is_beyond(image.height());
+        parallel_for(image.height(), [&](std::int64_t y) {
+            is_beyond[y] = !all_within(image.row(static_cast<int>(y)), lowest_, largest_);
+        });
+        std::vector<int> rows;
+        for (int y = 0; y < image.height(); ++y)
+            if (is_beyond[y] != 0) rows.push_back(y);
+        return rows;
+    }
+
     // Used parts are round: the unused texels of a row are at its two ends, equally many.
     void clear_unused(Image& image) const {
         const int width = image.width(), height = image.height();
@@ -97,6 +120,7 @@ class FaceEncoder {
     float lowest_, largest_;  // that all three channels hold
     std::int64_t clipped_texel_count_ = 0;
     std::vector<Vec3d> lost_flux_;
+    std::deque<Image> copies_;
 };
 
 // The layout that a request comes down to; `automatic` where the faces stay six.
@@ -116,18 +140,8 @@ Layout choose_layout(const Codec& codec, Projection projection, Layout wanted,
     return wanted;
 }
 
-// All faces of a level in one picture.
-Image paste(FaceEncoder& encoder, const EnvironmentMap& map, int level, const Arrangement& a) {
-    const int size = map.height(level);
-    Image picture(a.columns * size, a.rows * size, 3);
-    for (int face = 0; face < face_count(map.projection); ++face) {
-        paste_face(picture, encoder.encode(level, face), a, face);
-    }
-    return picture;
-}
-
 // A format halves the whole picture from level to level, which is not always what became of a face.
-void check_halving(const FileContents& contents, const std::string& target) {
+void check_halving(const ContentsView& contents, const std::string& target) {
     const Image& base = contents.levels[0][0];
     for (std::size_t level = 1; level < contents.levels.size(); ++level) {
         const Image& image = contents.levels[level][0];
@@ -141,26 +155,23 @@ void check_halving(const FileContents& contents, const std::string& target) {
     }
 }
 
-FileContents contents_for(const Codec& codec, TexelFormat format, const EnvironmentMap& map,
-                          Layout layout, const Metadata& metadata) {
-    FileContents contents;
-    contents.format = codec.name;
-    contents.stored = format;
+ContentsView contents_for(const EnvironmentMap& map, Layout layout, const Metadata& metadata) {
+    ContentsView contents;
     contents.metadata = describe(map, layout, metadata);
     return contents;
 }
 
 // Everything in one file, as faces of their own or as a picture.
-FileContents whole_map(FaceEncoder& encoder, FileContents contents, const EnvironmentMap& map,
+ContentsView whole_map(FaceEncoder& encoder, ContentsView contents, const EnvironmentMap& map,
                        Layout layout, const std::string& target) {
     const bool in_layout = layout != Layout::automatic && layout != Layout::single;
     for (int level = 0; level < map.level_count(); ++level) {
-        std::vector<Image>& images = contents.levels.emplace_back();
+        std::vector<ContentsView::Picture>& images = contents.levels.emplace_back();
         if (in_layout) {
-            images.push_back(paste(encoder, map, level, arrangement(layout)));
+            images.emplace_back(encoder.pasted(level, arrangement(layout)));
         } else {
             for (int face = 0; face < face_count(map.projection); ++face) {
-                images.push_back(encoder.encode(level, face));
+                images.emplace_back(encoder.encode(level, face));
             }
         }
     }
@@ -176,7 +187,7 @@ FileContents whole_map(FaceEncoder& encoder, FileContents contents, const Enviro
 // Files that appear together: all are written before the first takes its name.
 class FileSet {
   public:
-    void write(const std::filesystem::path& path, const Codec& codec, const FileContents& contents,
+    void write(const std::filesystem::path& path, const Codec& codec, const ContentsView& contents,
                const WriteOptions& options) {
         files_.push_back(std::make_unique<OutputFile>(path));
         codec.write(*files_.back(), contents, options);
@@ -194,13 +205,13 @@ class FileSet {
     std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
-void write_faces(FileSet& files, FaceEncoder& encoder, const FileContents& frame,
+void write_faces(FileSet& files, FaceEncoder& encoder, const ContentsView& frame,
                  const EnvironmentMap& map, const std::vector<std::filesystem::path>& paths,
                  const Codec& codec, const WriteOptions& options) {
     for (std::size_t face = 0; face < paths.size(); ++face) {
-        FileContents contents = frame;
+        ContentsView contents = frame;
         for (int level = 0; level < map.level_count(); ++level) {
-            contents.levels.emplace_back().push_back(encoder.encode(level, int(face)));
+            contents.levels.emplace_back().emplace_back(encoder.encode(level, int(face)));
         }
         files.write(paths[face], codec, contents, options);
     }
@@ -236,15 +247,13 @@ WriteReport write_map(const std::string& target, const EnvironmentMap& map,
             throw Error(Errc::usage, fmt::format("{}: a file for each face has no layout {}",
                                                  target, name(options.layout)));
         }
-        write_faces(files, encoder,
-                    contents_for(codec, chosen.format, map, Layout::automatic, options.metadata),
-                    map, paths, codec, chosen);
+        write_faces(files, encoder, contents_for(map, Layout::automatic, options.metadata), map,
+                    paths, codec, chosen);
     } else {
         const Layout layout = choose_layout(codec, map.projection, options.layout, target);
         files.write(
             target, codec,
-            whole_map(encoder, contents_for(codec, chosen.format, map, layout, options.metadata),
-                      map, layout, target),
+            whole_map(encoder, contents_for(map, layout, options.metadata), map, layout, target),
             chosen);
     }
 

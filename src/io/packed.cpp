@@ -10,14 +10,14 @@
 #include <half.h>
 
 #include "codec.h"
+#include "core/parallel.h"
+#include "core/vectorized.h"
 
 namespace mirrorball::detail {
 namespace {
 
 // Numbers are copied between files and memory as they are.
 static_assert(std::endian::native == std::endian::little);
-
-using Texel = std::array<float, 4>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -33,51 +33,203 @@ void store(std::byte* to, const T& value) {
     std::memcpy(to, &value, sizeof(T));
 }
 
-Texel texel_of(const float* values, int channels) {
-    switch (channels) {
-        case 1:
-            return {values[0], values[0], values[0], 1};
-        case 2:
-            return {values[0], values[0], values[0], values[1]};
-        case 3:
-            return {values[0], values[1], values[2], 1};
-        default:
-            return {values[0], values[1], values[2], values[3]};
-    }
+// Numbers ---------------------------------------------------------------------------------------
+//
+// Without a branch, in operations that there are for whole vectors: the loops over rows below are
+// compiled into such.
+
+// A float without its sign, as one of 5 bits of exponent and M of mantissa, by its bits. Rounds to
+// nearest, ties to even; what is too large becomes infinity or more.
+//
+// Normal numbers: the exponents differ by 112 in their zero; adding just below a half of the last
+// bit kept, and that bit, rounds, and a carry runs into the exponent as it should. Numbers below
+// the smallest normal one are whole multiples of 2^(-14-M): the processor's own addition rounds
+// them to it, to a sum so large that this is the value of its last bit.
+template <int M>
+inline std::uint32_t small_float_bits(std::uint32_t bits) {
+    constexpr int kShift = 23 - M;
+    constexpr std::uint32_t kSmallestNormal = 113u << 23;
+    constexpr float kLarge = M <= 9 ? static_cast<float>(1 << (9 - M)) : 1.0f / (1 << (M - 9));
+    const std::uint32_t last_kept = bits >> kShift & 1;
+    const std::uint32_t normal =
+        (bits - (112u << 23) + ((1u << (kShift - 1)) - 1) + last_kept) >> kShift;
+    const std::uint32_t small = std::bit_cast<std::uint32_t>(std::bit_cast<float>(bits) + kLarge) -
+                                std::bit_cast<std::uint32_t>(kLarge);
+    return bits < kSmallestNormal ? small : normal;
+}
+
+constexpr std::uint32_t kInfinityBits = 0x7f800000;
+
+inline std::uint16_t half_bits(float value) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t magnitude = bits & 0x7fffffff;
+    const std::uint32_t finite = std::min(small_float_bits<10>(magnitude), 0x7c00u);
+    const std::uint32_t half = magnitude > kInfinityBits ? 0x7e00u : finite;
+    return static_cast<std::uint16_t>(half | (bits >> 16 & 0x8000));
+}
+
+// Of a number without a sign: negative ones are 0. Infinity stays, what is finite becomes at most
+// the largest finite number.
+template <int M>
+inline std::uint32_t unsigned_float_bits(float value) {
+    constexpr std::uint32_t kInfinite = 31u << M;
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t finite = std::min(small_float_bits<M>(bits & 0x7fffffff), kInfinite - 1);
+    const std::uint32_t positive = (bits & 0x7fffffff) == kInfinityBits ? kInfinite : finite;
+    const std::uint32_t number = bits >> 31 != 0 ? 0 : positive;
+    return (bits & 0x7fffffff) > kInfinityBits ? kInfinite + 1 : number;
+}
+
+// value = mantissa 2^(exponent - 24), three mantissas of 9 bits and one exponent of 5. As in
+// OpenGL's EXT_texture_shared_exponent, the exponent is the smallest that holds the largest of the
+// three after rounding, and halves round up. Scaling by a power of two is exact, and so is what is
+// left when the whole part is taken away.
+inline std::uint32_t rgb9e5_bits(float red, float green, float blue) {
+    constexpr float kLargest = 65408;   // 511 2^(31 - 24)
+    const auto limited = [](float v) {  // NaN fails the first comparison and becomes 0
+        const float positive = v > 0 ? v : 0.0f;
+        return positive < kLargest ? positive : kLargest;
+    };
+    const auto power_of_two = [](std::int32_t e) {
+        return std::bit_cast<float>(static_cast<std::uint32_t>(e + 127) << 23);
+    };
+    const auto rounded = [](float v) {
+        const auto whole = static_cast<std::int32_t>(v);
+        return whole + (v - static_cast<float>(whole) >= 0.5f ? 1 : 0);
+    };
+    const float r = limited(red), g = limited(green), b = limited(blue);
+    const float largest = std::max(r, std::max(g, b));
+    const auto binary_exponent =
+        static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(largest) >> 23) - 127;
+    std::int32_t exponent = std::max(binary_exponent + 16, 0);
+    exponent += rounded(largest * power_of_two(24 - exponent)) == 512 ? 1 : 0;
+    const float scale = power_of_two(24 - exponent);
+    return static_cast<std::uint32_t>(rounded(r * scale) | rounded(g * scale) << 9 |
+                                      rounded(b * scale) << 18) |
+           static_cast<std::uint32_t>(exponent) << 27;
+}
+
+inline std::uint32_t b10g11r11f_bits(float red, float green, float blue) {
+    return unsigned_float_bits<6>(red) | unsigned_float_bits<6>(green) << 11 |
+           unsigned_float_bits<5>(blue) << 22;
 }
 
 std::uint8_t pack_unorm8(float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
 }
 
-void pack_texel(Packing packing, const Texel& texel, std::byte* out) {
-    const std::array<float, 3> rgb{texel[0], texel[1], texel[2]};
+// Rows ------------------------------------------------------------------------------------------
+
+// The row's texels with `kept` channels each, 3 or 4; into `scratch` where they are not so already.
+const float* with_channels(std::span<const float> row, int channels, int kept,
+                           std::vector<float>& scratch) {
+    if (channels == kept) return row.data();
+    const std::size_t width = row.size() / channels;
+    scratch.resize(width * kept);
+    const bool grey = channels < 3, has_alpha = channels == 2 || channels == 4;
+    for (std::size_t x = 0; x < width; ++x) {
+        const float* from = &row[x * channels];
+        float* to = &scratch[x * kept];
+        for (int c = 0; c < 3; ++c) to[c] = from[grey ? 0 : c];
+        if (kept == 4) to[3] = has_alpha ? from[channels - 1] : 1.0f;
+    }
+    return scratch.data();
+}
+
+// A block of numbers at a time, in an array of their own: files' bytes may lie at any address.
+constexpr std::size_t kBlock = 768;
+
+struct HalfBlock {
+    std::array<std::uint16_t, kBlock + 1> halves;  // a last texel of three can be read as four
+
+    void fill(const float* values, std::size_t count) {
+        vectorized([&]() MIRRORBALL_INLINE_BODY {
+            const float* __restrict from = values;
+            std::uint16_t* __restrict to = halves.data();
+            const std::size_t n = count;
+            for (std::size_t i = 0; i < n; ++i) to[i] = half_bits(from[i]);
+        });
+    }
+};
+
+void pack_halves(const float* values, std::size_t count, std::byte* out) {
+    HalfBlock block;
+    for (std::size_t i = 0; i < count; i += kBlock) {
+        const std::size_t size = std::min(kBlock, count - i);
+        block.fill(values + i, size);
+        std::memcpy(out + 2 * i, block.halves.data(), 2 * size);
+    }
+}
+
+// Three channels as halves and an alpha of 1: what nearly every file of ours holds.
+void pack_opaque_halves(const float* values, std::size_t width, std::byte* out) {
+    constexpr std::uint64_t kColour = 0xffff'ffff'ffff, kOne = std::uint64_t{0x3c00} << 48;
+    HalfBlock block;
+    block.halves.back() = 0;
+    for (std::size_t x = 0; x < width; x += kBlock / 3) {
+        const std::size_t size = std::min(kBlock / 3, width - x);
+        block.fill(values + 3 * x, 3 * size);
+        for (std::size_t i = 0; i < size; ++i) {
+            std::uint64_t texel;
+            std::memcpy(&texel, &block.halves[3 * i], sizeof texel);
+            store(out + 8 * (x + i), (texel & kColour) | kOne);
+        }
+    }
+}
+
+void pack_unorm8_row(const float* rgba, std::size_t width, bool srgb, std::byte* out) {
+    for (std::size_t i = 0; i < 4 * width; ++i) {
+        const bool curved = srgb && i % 4 != 3;
+        store(out + i, pack_unorm8(curved ? linear_to_srgb(rgba[i]) : rgba[i]));
+    }
+}
+
+void pack_row(Packing packing, std::span<const float> row, int channels, std::byte* out,
+              std::vector<float>& scratch) {
+    const std::size_t width = row.size() / channels;
+    if (packing == Packing::rgba16f && channels == 3)
+        return pack_opaque_halves(row.data(), width, out);
+    const int kept = channel_count(packing);
+    const float* values = with_channels(row, channels, kept, scratch);
     switch (packing) {
         case Packing::rgba32f:
-            store(out, texel);
-            break;
         case Packing::rgb32f:
-            store(out, rgb);
+            std::memcpy(out, values, width * kept * sizeof(float));
             break;
         case Packing::rgba16f:
         case Packing::rgb16f:
-            for (int c = 0; c < channel_count(packing); ++c)
-                store(out + 2 * c, pack_half(texel[c]));
+            pack_halves(values, width * kept, out);
             break;
         case Packing::rgb9e5:
-            store(out, pack_rgb9e5(rgb));
+            vectorized([&]() MIRRORBALL_INLINE_BODY {
+                for (std::size_t x = 0; x < width; ++x)
+                    store(out + 4 * x,
+                          rgb9e5_bits(values[3 * x], values[3 * x + 1], values[3 * x + 2]));
+            });
             break;
         case Packing::b10g11r11f:
-            store(out, pack_b10g11r11f(rgb));
+            vectorized([&]() MIRRORBALL_INLINE_BODY {
+                for (std::size_t x = 0; x < width; ++x)
+                    store(out + 4 * x,
+                          b10g11r11f_bits(values[3 * x], values[3 * x + 1], values[3 * x + 2]));
+            });
             break;
         case Packing::rgba8:
-            for (int c = 0; c < 4; ++c) store(out + c, pack_unorm8(texel[c]));
-            break;
         case Packing::rgba8_srgb:
-            for (int c = 0; c < 3; ++c) store(out + c, pack_unorm8(linear_to_srgb(texel[c])));
-            store(out + 3, pack_unorm8(texel[3]));
+            pack_unorm8_row(values, width, packing == Packing::rgba8_srgb, out);
             break;
     }
+}
+
+void pack_rows(Packing packing, const Image& image, int first, int count, std::byte* out) {
+    constexpr int kRowsPerPiece = 16;
+    const std::size_t row_bytes = static_cast<std::size_t>(image.width()) * texel_bytes(packing);
+    parallel_for((count + kRowsPerPiece - 1) / kRowsPerPiece, [&](std::int64_t piece) {
+        const int begin = static_cast<int>(piece) * kRowsPerPiece;
+        std::vector<float> scratch;
+        for (int y = begin; y < std::min(begin + kRowsPerPiece, count); ++y)
+            pack_row(packing, image.row(first + y), image.channels(), out + y * row_bytes, scratch);
+    });
 }
 
 void unpack_texel(Packing packing, const std::byte* bytes, float* out) {
@@ -180,12 +332,19 @@ Packing with_transfer(Packing packing, Transfer transfer) {
 }
 
 void pack(Packing packing, const Image& image, std::span<std::byte> out) {
-    const int step = texel_bytes(packing), channels = image.channels();
-    std::byte* to = out.data();
-    for (int y = 0; y < image.height(); ++y) {
-        const float* values = image.row(y).data();
-        for (int x = 0; x < image.width(); ++x, to += step, values += channels)
-            pack_texel(packing, texel_of(values, channels), to);
+    pack_rows(packing, image, 0, image.height(), out.data());
+}
+
+void write_packed(OutputFile& file, Packing packing, const Image& image) {
+    constexpr std::size_t kPieceBytes = std::size_t{4} << 20;
+    const std::size_t row_bytes = static_cast<std::size_t>(image.width()) * texel_bytes(packing);
+    const int rows = static_cast<int>(std::clamp<std::size_t>(
+        kPieceBytes / row_bytes, 1, static_cast<std::size_t>(image.height())));
+    std::vector<std::byte> bytes(rows * row_bytes);
+    for (int y = 0; y < image.height(); y += rows) {
+        const int count = std::min(rows, image.height() - y);
+        pack_rows(packing, image, y, count, bytes.data());
+        file.write(std::span<const std::byte>(bytes).first(count * row_bytes));
     }
 }
 
@@ -202,31 +361,15 @@ Image unpack(Packing packing, std::span<const std::byte> bytes, int width, int h
 }
 
 std::uint16_t pack_half(float value) {
-    return Imath::half(value).bits();
+    return half_bits(value);
 }
 
 float unpack_half(std::uint16_t bits) {
     return Imath::half(Imath::half::FromBits, bits);
 }
 
-// The value is q 2^(e - m) with m bits of mantissa, e its exponent but at least the smallest normal
-// one, and q a whole number below 2^(m+1). Its bits are (e + 14) 2^m + q: normal numbers carry
-// their leading one into the exponent field, and so does a q that rounding made 2^(m+1).
 std::uint32_t pack_unsigned_float(float value, int mantissa_bits) {
-    constexpr int kSmallestExponent = -14;
-    const std::uint32_t infinity = 31u << mantissa_bits;
-    if (std::isnan(value)) return infinity + 1;
-    if (value <= 0) return 0;
-    if (value == kInfinity) return infinity;
-    const int exponent = std::max(std::ilogb(value), kSmallestExponent);
-    if (exponent > 15) return infinity - 1;
-    // Exact in double; nearbyint rounds halves to even.
-    const double q =
-        std::nearbyint(std::ldexp(static_cast<double>(value), mantissa_bits - exponent));
-    const std::uint32_t bits =
-        (static_cast<std::uint32_t>(exponent - kSmallestExponent) << mantissa_bits) +
-        static_cast<std::uint32_t>(q);
-    return std::min(bits, infinity - 1);
+    return mantissa_bits == 6 ? unsigned_float_bits<6>(value) : unsigned_float_bits<5>(value);
 }
 
 float unpack_unsigned_float(std::uint32_t bits, int mantissa_bits) {
@@ -238,8 +381,7 @@ float unpack_unsigned_float(std::uint32_t bits, int mantissa_bits) {
 }
 
 std::uint32_t pack_b10g11r11f(const std::array<float, 3>& rgb) {
-    return pack_unsigned_float(rgb[0], 6) | pack_unsigned_float(rgb[1], 6) << 11 |
-           pack_unsigned_float(rgb[2], 5) << 22;
+    return b10g11r11f_bits(rgb[0], rgb[1], rgb[2]);
 }
 
 std::array<float, 3> unpack_b10g11r11f(std::uint32_t bits) {
@@ -247,23 +389,8 @@ std::array<float, 3> unpack_b10g11r11f(std::uint32_t bits) {
             unpack_unsigned_float(bits >> 22, 5)};
 }
 
-// value = mantissa 2^(exponent - 24), three mantissas of 9 bits and one exponent of 5. As in
-// OpenGL's EXT_texture_shared_exponent, the exponent is the smallest that holds the largest of the
-// three after rounding, and halves round up.
 std::uint32_t pack_rgb9e5(const std::array<float, 3>& rgb) {
-    constexpr double kLargest = 65408;  // 511 2^(31 - 24)
-    std::array<double, 3> value;
-    for (int c = 0; c < 3; ++c)  // NaN fails the comparison and becomes 0
-        value[c] = rgb[c] > 0 ? std::min(static_cast<double>(rgb[c]), kLargest) : 0.0;
-    const double largest = *std::max_element(value.begin(), value.end());
-    const auto mantissa = [](double v, int exponent) {
-        return static_cast<std::uint32_t>(std::floor(std::ldexp(v, 24 - exponent) + 0.5));
-    };
-
-    int exponent = largest > 0 ? std::max(std::ilogb(largest) + 16, 0) : 0;
-    if (mantissa(largest, exponent) == 512) ++exponent;
-    return mantissa(value[0], exponent) | mantissa(value[1], exponent) << 9 |
-           mantissa(value[2], exponent) << 18 | static_cast<std::uint32_t>(exponent) << 27;
+    return rgb9e5_bits(rgb[0], rgb[1], rgb[2]);
 }
 
 std::array<float, 3> unpack_rgb9e5(std::uint32_t bits) {
@@ -286,7 +413,7 @@ std::int64_t image_count_bound(int face_count, int level_count) {
     return level_count == 1 ? face_count : 2 * std::int64_t{face_count};
 }
 
-void require_halved_levels(const OutputFile& file, const FileContents& contents) {
+void require_halved_levels(const OutputFile& file, const ContentsView& contents) {
     const Image& base = contents.levels.front().front();
     const int most = possible_level_count(base.width(), base.height());
     if (static_cast<int>(contents.levels.size()) > most)

@@ -13,6 +13,7 @@
 
 #include <mirrorball/io.h>
 
+#include "codec.h"
 #include "file.h"
 
 namespace mirrorball::detail {
@@ -43,6 +44,8 @@ enum class Packing {
 void pack(Packing packing, const Image& image, std::span<std::byte> out);
 [[nodiscard]] Image unpack(Packing packing, std::span<const std::byte> bytes, int width,
                            int height);
+/// Packs a picture and writes it, a few rows at a time: a packed whole is never held.
+void write_packed(OutputFile& file, Packing packing, const Image& image);
 
 // Single texels and numbers.
 
@@ -66,7 +69,7 @@ void pack(Packing packing, const Image& image, std::span<std::byte> out);
 /// images.
 [[nodiscard]] std::int64_t image_count_bound(int face_count, int level_count);
 /// Refuses to write a chain whose levels have other sizes, or more than there can be.
-void require_halved_levels(const OutputFile& file, const FileContents& contents);
+void require_halved_levels(const OutputFile& file, const ContentsView& contents);
 
 /// An alpha that is 1 in every texel says nothing: takes it away, in all images or none.
 void drop_opaque_alpha(FileContents& contents);

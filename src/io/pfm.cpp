@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "codec.h"
+#include "row_source.h"
 
 namespace mirrorball::detail {
 namespace {
@@ -61,7 +62,13 @@ void reverse_bytes(std::span<float> values) {
         value = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
 }
 
-FileContents read(InputFile& file, const ReadOptions& options) {
+struct PfmHeader {
+    int width, height, channels;
+    double scale;
+    std::uint64_t begin;  // of the texels
+};
+
+PfmHeader read_header(InputFile& file, const ReadOptions& options) {
     const int channels = read_word(file) == "PF" ? 3 : 1;
     const auto width = read_number<std::int64_t>(file, "width");
     const auto height = read_number<std::int64_t>(file, "height");
@@ -74,23 +81,65 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     const std::uint64_t bytes =
         static_cast<std::uint64_t>(width) * height * channels * sizeof(float);
     check_claim(file, width, height, channels, 1, bytes, options);
+    return {static_cast<int>(width), static_cast<int>(height), channels, scale, file.position()};
+}
 
-    Image image(static_cast<int>(width), static_cast<int>(height), channels);
+std::vector<std::string> notes_on(const PfmHeader& header) {
+    if (std::abs(header.scale) == 1) return {};
+    return {fmt::format("states a scale of {:g}, which is not applied", header.scale)};
+}
+
+FileContents read(InputFile& file, const ReadOptions& options) {
+    const PfmHeader header = read_header(file, options);
+    Image image(header.width, header.height, header.channels);
     for (int y = image.height() - 1; y >= 0; --y) {
         file.read(std::as_writable_bytes(image.row(y)));
-        if (scale > 0) reverse_bytes(image.row(y));
+        if (header.scale > 0) reverse_bytes(image.row(y));
     }
     FileContents contents;
     contents.stored = TexelFormat::rgba32f;
     contents.levels.emplace_back().push_back(std::move(image));
-    if (std::abs(scale) != 1)
-        contents.notes.push_back(
-            fmt::format("states a scale of {:g}, which is not applied", scale));
+    contents.notes = notes_on(header);
     return contents;
 }
 
+// The bottom row is first in the file, but where each begins is known.
+class PfmRows : public RowSource {
+  public:
+    PfmRows(InputFile& file, const PfmHeader& of_file) : file_(file), of_file_(of_file) {
+        header.width = of_file.width;
+        header.height = of_file.height;
+        header.channels = of_file.channels;
+        header.stored = TexelFormat::rgba32f;
+        header.notes = notes_on(of_file);
+    }
+
+    void read(int count, std::span<float> values) override {
+        const std::size_t row_size = values.size() / count;
+        done_ += count;
+        const auto below = static_cast<std::uint64_t>(header.height - done_);
+        file_.seek(of_file_.begin + below * row_size * sizeof(float));
+        file_.read(std::as_writable_bytes(values));
+        for (int a = 0, b = count - 1; a < b; ++a, --b)
+            std::swap_ranges(&values[a * row_size], &values[a * row_size] + row_size,
+                             &values[b * row_size]);
+        if (of_file_.scale > 0) reverse_bytes(values);
+    }
+    [[nodiscard]] int rows_at_once() const override { return 16; }
+    [[nodiscard]] std::uint64_t bytes_held() const override { return 0; }
+
+  private:
+    InputFile& file_;
+    PfmHeader of_file_;
+    int done_ = 0;
+};
+
+std::unique_ptr<RowSource> open_rows(InputFile& file, const ReadOptions&, std::string&) {
+    return std::make_unique<PfmRows>(file, read_header(file, {}));
+}
+
 // Alpha is dropped, which the format has not.
-void write(OutputFile& file, const FileContents& contents, const WriteOptions&) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions&) {
     const Image& image = contents.levels.front().front();
     const int channels = image.channels();
     const int kept = channels < 3 ? 1 : 3;
@@ -106,6 +155,7 @@ void write(OutputFile& file, const FileContents& contents, const WriteOptions&) 
 
 }  // namespace
 
-const Codec kPfm{"PFM", {".pfm"}, {TexelFormat::rgba32f}, recognises, read, write};
+const Codec kPfm{"PFM", {".pfm"}, {TexelFormat::rgba32f}, recognises, read, write, false,
+                 false, open_rows};
 
 }  // namespace mirrorball::detail

@@ -232,7 +232,7 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     return PngReader(file).read(options);
 }
 
-void write(OutputFile& file, const FileContents& contents, const WriteOptions& options) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions& options) {
     const Image& image = contents.levels.front().front();
     PngWriter writer(file);
     if (options.format == TexelFormat::unorm16)

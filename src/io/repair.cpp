@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "all_within.h"
 #include "core/parallel.h"
+#include "face_words.h"
 #include "texel_use.h"
 
 namespace mirrorball::detail {
@@ -16,25 +22,16 @@ bool is_finite(const Vec3f& c) {
     return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
 }
 
-TexelFaults row_faults(const Level& level, Projection projection, int face, int y) {
-    const Image& image = level.faces[face];
-    const int width = image.width();
-    TexelFaults faults;
-    for (int x = 0; x < width; ++x) {
-        const Vec3f c = image.rgb(x, y);
-        const float least = std::min({c.x, c.y, c.z});
-        const bool finite = is_finite(c);
-        // most texels are well, and are not asked whether they are used
-        if (finite && least >= 0) continue;
-        if (texel_solid_angle(projection, width, image.height(), x, y) == 0) continue;
-        if (!finite) {
-            if (faults.non_finite_count++ == 0) faults.first_non_finite = {face, x, y};
-        } else {
-            ++faults.negative_count;
-            faults.smallest = std::min(faults.smallest, least);
-        }
-    }
-    return faults;
+// "1 texel is", "5 texels are".
+std::string texels_in_words(std::int64_t count, std::string_view one, std::string_view more) {
+    return fmt::format("{} texel{}", count, count == 1 ? one : more);
+}
+
+std::string found_in_words(Projection projection, int level, const TexelFaults& faults) {
+    const auto [face, x, y] = faults.first_non_finite;
+    return fmt::format("{} no number (NaN or infinite), the first {}",
+                       texels_in_words(faults.non_finite_count, " is", "s are"),
+                       texel_in_words(projection, level, face, x, y));
 }
 
 // The texels of a level as one list, face by face and row by row, and their neighbours across
@@ -169,20 +166,65 @@ class HoleFiller {
 
 }  // namespace
 
+void TexelFaults::add(const TexelFaults& later) {
+    if (non_finite_count == 0) first_non_finite = later.first_non_finite;
+    non_finite_count += later.non_finite_count;
+    negative_count += later.negative_count;
+    smallest = std::min(smallest, later.smallest);
+}
+
+TexelFaults faults_in_row(std::span<const float> row, Projection projection, int height, int face,
+                          int y) {
+    TexelFaults faults;
+    // most rows are well
+    if (all_within(row, 0, std::numeric_limits<float>::max())) return faults;
+    const int width = static_cast<int>(row.size() / 3);
+    for (int x = 0; x < width; ++x) {
+        const float* texel = &row[std::size_t{3} * x];
+        const Vec3f c(texel[0], texel[1], texel[2]);
+        const float least = std::min({c.x, c.y, c.z});
+        const bool finite = is_finite(c);
+        if (finite && least >= 0) continue;
+        if (texel_solid_angle(projection, width, height, x, y) == 0) continue;
+        if (!finite) {
+            if (faults.non_finite_count++ == 0) faults.first_non_finite = {face, x, y};
+        } else {
+            ++faults.negative_count;
+            faults.smallest = std::min(faults.smallest, least);
+        }
+    }
+    return faults;
+}
+
+std::string non_finite_in_words(Projection projection, int level, const TexelFaults& faults) {
+    return found_in_words(projection, level, faults) +
+           "; --repair replaces them by their neighbours";
+}
+
+std::string repaired_in_words(Projection projection, int level, const TexelFaults& faults) {
+    return found_in_words(projection, level, faults) + "; replaced by the mean of the neighbours";
+}
+
+std::string beyond_repair_in_words(Projection projection, int level, const TexelFaults& faults) {
+    return found_in_words(projection, level, faults) + "; there is no good one to replace them by";
+}
+
+std::string negative_in_words(int level, const TexelFaults& faults) {
+    return fmt::format("{} negative, down to {}{}; kept",
+                       texels_in_words(faults.negative_count, " is", "s are"), faults.smallest,
+                       level > 0 ? fmt::format(", in level {}", level) : std::string());
+}
+
 TexelFaults find_faults(const Level& level, Projection projection) {
     const int height = level.height();
     std::vector<TexelFaults> rows(level.faces.size() * height);
     parallel_for(std::int64_t(rows.size()), [&](std::int64_t i) {
-        rows[i] = row_faults(level, projection, int(i / height), int(i % height));
+        const int face = int(i / height), y = int(i % height);
+        rows[i] = faults_in_row(level.faces[face].row(y), projection, height, face, y);
     });
 
     TexelFaults sum;
-    for (const TexelFaults& row : rows) {
-        if (sum.non_finite_count == 0) sum.first_non_finite = row.first_non_finite;
-        sum.non_finite_count += row.non_finite_count;
-        sum.negative_count += row.negative_count;
-        sum.smallest = std::min(sum.smallest, row.smallest);
-    }
+    for (const TexelFaults& row : rows) sum.add(row);
     return sum;
 }
 

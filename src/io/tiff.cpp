@@ -468,7 +468,7 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     return TiffReader(file).read(options);
 }
 
-void write(OutputFile& file, const FileContents& contents, const WriteOptions& options) {
+void write(OutputFile& file, const ContentsView& contents, const WriteOptions& options) {
     TiffWriter(file, contents.levels.front().front(), options.format,
                options.compress.value_or(true))
         .write();

@@ -64,6 +64,34 @@ TEST_F(Convert, LobesComeInListsAndFromTables) {
     EXPECT_EQ(json({"info", file("c.ktx2")})["levels"][0]["lobe"], "charlie:0.01");
 }
 
+// 4096 x 2048 texels take 96 MiB; their flux is that of the means made of them, to the rounding of
+// the texels of a .hdr, whose 8 bits may be off by 1/512 each.
+TEST_F(Convert, AMapLargerThanMemoryIsReduced) {
+    must({"sky", "grid", "-o", file("large.hdr"), "--size", "4096"});
+    const Json whole = json({"info", file("large.hdr")});
+    const Json by_rows = json({"info", file("large.hdr"), "--memory", "20M"});
+    EXPECT_TRUE(by_rows["levels"][0]["seam_ratio"].is_null());
+    EXPECT_EQ(by_rows["levels"][0]["maximum"], whole["levels"][0]["maximum"]);
+
+    const Outcome outcome =
+        run({"convert", file("large.hdr"), "-o", file("small.hdr"), "--memory", "40M"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("4096 x 2048 texels were averaged to 1024 x 512"), std::string::npos)
+        << outcome.err;
+    const Json small = json({"info", file("small.hdr")});
+    EXPECT_EQ(small["width"], 1024);
+    for (int c = 0; c < 3; ++c) {
+        const double flux = whole["levels"][0]["flux"][c];
+        EXPECT_NEAR(by_rows["levels"][0]["flux"][c], flux, 1e-12 * flux);
+        EXPECT_NEAR(small["levels"][0]["flux"][c], flux, flux / 512);
+    }
+
+    const Outcome refused =
+        run({"convert", file("large.hdr"), "-o", file("none.hdr"), "--memory", "1M"});
+    EXPECT_EQ(refused.code, 3) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(file("none.hdr")));
+}
+
 TEST_F(Convert, AnOutputMayBeTheInput) {
     must({"sky", "sunset", "-o", file("a.hdr"), "--size", "64"});
     must({"convert", file("a.hdr"), "-o", file("a.hdr"), "--rotate", "90,0,0"});

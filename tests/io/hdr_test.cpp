@@ -233,7 +233,7 @@ TEST(Hdr, StreamsRowByRow) {
     EXPECT_TRUE(reader.orientation().upright());
     std::vector<float> row(3 * width);
     for (int y = 0; y < height; ++y) {
-        reader.read_scanline(row);
+        reader.read_scanlines(row);
         for (const float v : row) ASSERT_EQ(v, 128 + y);
     }
     EXPECT_EQ(file.remaining(), 0u);

@@ -1,12 +1,14 @@
 // Texel packings: every bit pattern that there is, and the definitions' own arithmetic in double.
 #include "io/packed.h"
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
+#include <half.h>
 
 #include "io/codec.h"
 
@@ -164,6 +166,40 @@ TEST(Packed, ImagesComeBackFromTheirBytes) {
         const Image back = unpack(packing, bytes, 3, 2);
         EXPECT_TRUE(std::equal(image.values().begin(), image.values().end(), back.values().begin()))
             << static_cast<int>(packing);
+    }
+}
+
+// Bit patterns of every kind, in rows longer than the blocks that vector code takes at a time.
+TEST(Packed, RowsAreTheirTexels) {
+    constexpr int width = 1021, height = 37;
+    std::mt19937 random(3);
+    for (const int channels : {3, 4}) {
+        Image image(width, height, channels);
+        for (float& value : image.values()) value = std::bit_cast<float>(unsigned(random()));
+        const auto packed = [&](Packing packing) {
+            std::vector<std::byte> bytes(image.texel_count() * texel_bytes(packing));
+            pack(packing, image, bytes);
+            return bytes;
+        };
+        const auto halves = packed(Packing::rgba16f), shared = packed(Packing::rgb9e5),
+                   small = packed(Packing::b10g11r11f);
+        for (int i = 0; i < width * height; ++i) {
+            const float* texel = image.at(i % width, i / width);
+            std::array<std::uint16_t, 4> half;
+            std::memcpy(half.data(), &halves[std::size_t{8} * i], 8);
+            for (int c = 0; c < 4; ++c) {
+                const float value = c < channels ? texel[c] : 1;
+                if (std::isnan(value))
+                    ASSERT_TRUE(std::isnan(unpack_half(half[c])));
+                else
+                    ASSERT_EQ(half[c], Imath::half(value).bits()) << value;
+            }
+            std::uint32_t bits;
+            std::memcpy(&bits, &shared[std::size_t{4} * i], 4);
+            ASSERT_EQ(bits, pack_rgb9e5({texel[0], texel[1], texel[2]}));
+            std::memcpy(&bits, &small[std::size_t{4} * i], 4);
+            ASSERT_EQ(bits, pack_b10g11r11f({texel[0], texel[1], texel[2]}));
+        }
     }
 }
 
