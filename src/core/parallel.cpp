@@ -28,7 +28,8 @@ void parallel_for(std::int64_t count, const std::function<void(std::int64_t)>& f
                               f(i);
                               if (progress) report(++done_count);
                           }
-                      });
+                      },
+                      tbb::simple_partitioner());
     // the last piece may have found another thread reporting
     if (progress) report(count);
 }

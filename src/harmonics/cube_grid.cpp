@@ -33,9 +33,7 @@ class RowWeights {
 
     /// If `reversed`, the last texel has the first weight.
     HWY_INLINE RowWeights(const float* weights, bool reversed) {
-        const int first = reversed ? kTapCount - 1 : 0, step = reversed ? -1 : 1;
-        for (int i = 0; i < kVectorCount; ++i)
-            weights_[i] = spread(weights, first + step * i * kTapCount / kVectorCount, step);
+        for (int i = 0; i < kVectorCount; ++i) weights_[i] = spread(weights, i, reversed);
     }
 
     /// Sum over eight rows, by `across`, of the sums along them.
@@ -77,17 +75,20 @@ class RowWeights {
     }
 
   private:
-    // Weights first, first + step, ..., each in the lanes of one texel.
-    static HWY_INLINE WideVec spread(const float* weights, int first, int step) {
+    // The i-th vector of weights, each in the lanes of one texel.
+    static HWY_INLINE WideVec spread(const float* weights, int i, bool reversed) {
         const Wide d;
         if constexpr (kVectorCount == kTapCount) {
-            return hn::Set(d, weights[first]);
+            return hn::Set(d, weights[reversed ? kTapCount - 1 - i : i]);
         } else {
-            const hn::RebindToSigned<Wide> indices;
-            const auto texel = hn::ShiftRight<2>(hn::Iota(indices, 0));
-            const auto index = hn::Add(hn::Set(indices, first),
-                                       step > 0 ? texel : hn::Sub(hn::Zero(indices), texel));
-            return hn::GatherIndex(d, weights, index);
+            alignas(64) static constexpr std::int32_t kLanes[2][32] = {
+                {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3,
+                 4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7},
+                {7, 7, 7, 7, 6, 6, 6, 6, 5, 5, 5, 5, 4, 4, 4, 4,
+                 3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0}};
+            const auto lanes =
+                hn::SetTableIndices(d, kLanes[reversed ? 1 : 0] + i * hn::MaxLanes(d));
+            return hn::TableLookupLanes(hn::LoadU(d, weights), lanes);
         }
     }
 
@@ -167,9 +168,9 @@ HWY_INLINE void load_lanes(const float* from, std::ptrdiff_t row, float* r, floa
 }
 
 HWY_INLINE void store_rgb(TexelVec value, float* to) {
-    HWY_ALIGN float texel[4];
-    hn::Store(value, Texel(), texel);
-    std::memcpy(to, texel, 3 * sizeof(float));
+    const hn::Half<Texel> pair;
+    hn::StoreU(hn::LowerHalf(pair, value), pair, to);
+    to[2] = hn::ExtractLane(value, 2);
 }
 
 HWY_INLINE TexelVec clamped(TexelVec value, const Range& range) {

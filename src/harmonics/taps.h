@@ -36,10 +36,10 @@ class TapDesign {
 /// Taps of many points.
 struct TapList {
     std::vector<std::int32_t> first;  ///< index of the first of eight grid values
-    AlignedArray<float> weights;      ///< [point][tap]
+    AlignedArray<float> weights;      ///< [point][tap], and room to read a vector from the last
 
     TapList() = default;
-    explicit TapList(std::size_t count) : first(count), weights(count * kTapCount) {}
+    explicit TapList(std::size_t count) : first(count), weights(count * kTapCount + 16) {}
 
     /// For the point at `position`, in steps from grid value 0.
     void set(std::size_t point, double position, const TapDesign& design);

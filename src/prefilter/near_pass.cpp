@@ -92,9 +92,11 @@ void add(const NearField& field, const NearKernel& near, const EnvironmentMap* f
     const int width = map.width(), height = map.height();
     const int edge = tile_edge(height);
     const int across = (width + edge - 1) / edge, down = (height + edge - 1) / edge;
-    const std::vector<double> solid_angles = solid_angle_table(map.projection, width, height);
     visit(map.projection, [&](auto p) {
         using P = decltype(p);
+        const std::vector<double> solid_angles =
+            P::fills_square ? std::vector<double>()
+                            : solid_angle_table(map.projection, width, height);
         parallel_for(std::int64_t{P::face_count} * down * across, [&](std::int64_t i) {
             const int face = static_cast<int>(i / (across * down));
             const int x = static_cast<int>(i % across) * edge;
@@ -110,7 +112,9 @@ void add(const NearField& field, const NearKernel& near, const EnvironmentMap* f
             std::size_t k = 0;
             for (int row = block.y0; row < block.y1; ++row) {
                 for (int column = block.x0; column < block.x1; ++column, ++k) {
-                    if (solid_angles[static_cast<std::size_t>(row) * width + column] == 0) continue;
+                    if (!P::fills_square &&
+                        solid_angles[static_cast<std::size_t>(row) * width + column] == 0)
+                        continue;
                     Vec3f rgb(buffer.r[k], buffer.g[k], buffer.b[k]);
                     if (far_weights != nullptr) rgb *= integral / buffer.weight[k];
                     image.set_rgb(column, row, clamp(rgb));

@@ -203,7 +203,9 @@ void PrefilterPlan::Plan::make_transforms() {
 // Divides by the lobes' own sums over the source, whose points and areas integrate no lobe quite to
 // one. Where the source is a panorama that sum depends on the latitude alone.
 void PrefilterPlan::Plan::normalise() {
-    if (!analysis_) return;
+    const bool is_needed = std::ranges::any_of(
+        filtered_, [](const auto& f) { return f && f->whole_source_near; });
+    if (!analysis_ || !(is_needed || analysis_->on_rings())) return;
     EnvironmentMap white = make_environment_map(source_.projection, source_.size);
     for (Image& face : white.levels[0].faces) std::ranges::fill(face.values(), 1.0f);
     Harmonics ones(analysis_->band_count());
@@ -236,7 +238,8 @@ void PrefilterPlan::Plan::normalise() {
 void PrefilterPlan::Plan::find_lights(const EnvironmentMap& source, Source& s) const {
     s.choices.resize(targets_.size());
     const float brightest = std::max({s.range.highest.x, s.range.highest.y, s.range.highest.z});
-    const float mean = static_cast<float>(s.range.mean);
+    const Vec3f first = s.harmonics.coefficient(0, 0);
+    const float mean = (first.x + first.y + first.z) / 3 * static_cast<float>(std::sqrt(1 / (4 * kPi)));
     if (!(mean > 0)) return;
     double square = 0;
     for (std::size_t l = 1; l < s.spectrum.size(); ++l) square += s.spectrum[l];

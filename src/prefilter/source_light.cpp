@@ -31,22 +31,20 @@ std::size_t row_count(const EnvironmentMap& map) {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Per channel of a row: least, greatest, and sum by solid angle.
+// Per channel of a row: least and greatest.
 struct RowRange {
     float lowest[3] = {kInfinity, kInfinity, kInfinity};
     float highest[3] = {-kInfinity, -kInfinity, -kInfinity};
-    double power = 0;
     bool finite = true;
 };
 
-// A row all of whose texels have one solid angle: values are taken three vectors at a time.
-RowRange range_of_whole_row(std::span<const float> row, double solid_angle) {
+// A row all of whose texels are used: values are taken three vectors at a time.
+RowRange range_of_whole_row(std::span<const float> row) {
     constexpr std::size_t kStep = 24;
     float low[kStep], high[kStep], sum[kStep];
     std::fill_n(low, kStep, kInfinity);
     std::fill_n(high, kStep, -kInfinity);
     std::fill_n(sum, kStep, 0.0f);
-    double power = 0;
     std::size_t x = 0;
     vectorized([&]() MIRRORBALL_INLINE_BODY {
         for (; x + kStep <= row.size(); x += kStep) {
@@ -54,36 +52,33 @@ RowRange range_of_whole_row(std::span<const float> row, double solid_angle) {
                 const float v = row[x + i];
                 low[i] = v < low[i] ? v : low[i];
                 high[i] = v > high[i] ? v : high[i];
-                sum[i] += v;
+                sum[i] += v * 0.0f;  // NaN if any is not finite
             }
         }
     });
     RowRange range;
+    float all = 0;
     for (std::size_t i = 0; i < kStep; ++i) {
         range.lowest[i % 3] = std::min(range.lowest[i % 3], low[i]);
         range.highest[i % 3] = std::max(range.highest[i % 3], high[i]);
-        power += sum[i];
+        all += sum[i];
     }
     for (; x < row.size(); ++x) {
         range.lowest[x % 3] = std::min(range.lowest[x % 3], row[x]);
         range.highest[x % 3] = std::max(range.highest[x % 3], row[x]);
-        power += row[x];
+        all += row[x] * 0.0f;
     }
-    // NaN fails every comparison above, but not this sum
-    range.finite = std::isfinite(power);
-    range.power = power * solid_angle;
+    range.finite = !std::isnan(all);
     return range;
 }
 
 RowRange range_of_row(std::span<const float> row, const double* solid_angles) {
     RowRange range;
     for (std::size_t i = 0; i < row.size(); ++i) {
-        const double solid_angle = solid_angles[i / 3];
-        if (solid_angle == 0) continue;
+        if (solid_angles[i / 3] == 0) continue;
         range.lowest[i % 3] = std::min(range.lowest[i % 3], row[i]);
         range.highest[i % 3] = std::max(range.highest[i % 3], row[i]);
         range.finite = range.finite && std::isfinite(row[i]);
-        range.power += row[i] * solid_angle;
     }
     return range;
 }
@@ -125,14 +120,13 @@ std::vector<Light> lights_of(const EnvironmentMap& map, const std::vector<double
 SourceRange range_of(const EnvironmentMap& map, const std::vector<double>& solid_angles) {
     std::vector<RowRange> rows(row_count(map));
     const auto width = static_cast<std::size_t>(map.width());
+    const bool fills = visit(map.projection, [](auto p) { return decltype(p)::fills_square; });
     for_each_row(map, [&](std::int64_t i, const Image& image, int y) {
         const double* const row = solid_angles.data() + width * static_cast<std::size_t>(y);
-        rows[i] = map.projection == Projection::equirect
-                      ? range_of_whole_row(image.row(y), row[0])
-                      : range_of_row(image.row(y), row);
+        rows[i] = fills ? range_of_whole_row(image.row(y)) : range_of_row(image.row(y), row);
     });
     SourceRange range{Vec3f(kInfinity, kInfinity, kInfinity),
-                      Vec3f(-kInfinity, -kInfinity, -kInfinity), 0, {}};
+                      Vec3f(-kInfinity, -kInfinity, -kInfinity), {}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!rows[i].finite) {
             const std::size_t height = map.height();
@@ -145,7 +139,6 @@ SourceRange range_of(const EnvironmentMap& map, const std::vector<double>& solid
             range.lowest[c] = std::min(range.lowest[c], rows[i].lowest[c]);
             range.highest[c] = std::max(range.highest[c], rows[i].highest[c]);
         }
-        range.mean += rows[i].power / (3 * 4 * kPi);
         range.rows.push_back(std::max({rows[i].highest[0], rows[i].highest[1], rows[i].highest[2]}));
     }
     return range;

@@ -10,8 +10,7 @@
 namespace mirrorball::detail {
 
 struct SourceRange {
-    Vec3f lowest, highest;  ///< per channel
-    double mean;            ///< over the sphere and the channels
+    Vec3f lowest, highest;    ///< per channel
     std::vector<float> rows;  ///< greatest value of each row, face after face
 };
 
