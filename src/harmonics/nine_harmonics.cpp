@@ -14,7 +14,7 @@ void add(NineHarmonics& sum, const NineHarmonics& more) {
 
 template <class P>
 NineHarmonics analyse_row(P, const EnvironmentMap& map, const Image& image, int face, int y,
-                      const std::vector<double>& solid_angles) {
+                          const std::vector<double>& solid_angles) {
     NineHarmonics sum;
     const int width = image.width();
     for (int x = 0; x < width; ++x) {
