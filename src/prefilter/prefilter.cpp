@@ -51,9 +51,13 @@ constexpr double kNarrowest = 0.125;  // half of the lobe's light, in texels
 constexpr double kFewTexels = 64;
 constexpr double kMostSummedPairs = 1e9;
 
+// Lobes that hold half of their light within so many texels have sums, over the texels around them,
+// that change from texel to texel: they have the whole source in their near part, too.
+constexpr double kWholeSource = 2.5;
+
 // What is estimated is a mean over the sphere; maps of few texels show up to thrice as much. And
 // what single precision adds: of directions, next to lobes that are nearly deltas, and of sums.
-constexpr double kShown = 3, kNearDelta = 1e-4, kRounding = 2e-6;
+constexpr double kShown = 3, kNearDelta = 5e-4, kRounding = 2e-6;
 
 // Sums over a lobe that differ by less than this, in tolerances, count as equal.
 constexpr double kEvenness = 0.05;
@@ -113,19 +117,18 @@ bool is_even(const EnvironmentMap& map, double value, double tolerance) {
 void divide_by_sums(const EnvironmentMap& sums, float integral, const Vec3f& lowest,
                     const Vec3f& highest, EnvironmentMap& map) {
     const int height = map.height();
-    parallel_for(static_cast<std::int64_t>(map.levels[0].faces.size()) * height,
-                 [&](std::int64_t row) {
-                     const auto face = static_cast<std::size_t>(row / height);
-                     const int y = static_cast<int>(row % height);
-                     const std::span<const float> by = sums.levels[0].faces[face].row(y);
-                     const std::span<float> values = map.levels[0].faces[face].row(y);
-                     for (std::size_t i = 0; i < values.size(); ++i) {
-                         if (by[i] == 0) continue;  // unused
-                         const int c = static_cast<int>(i % 3);
-                         values[i] = std::clamp(values[i] * (integral / by[i]), lowest[c],
-                                                highest[c]);
-                     }
-                 });
+    parallel_for(
+        static_cast<std::int64_t>(map.levels[0].faces.size()) * height, [&](std::int64_t row) {
+            const auto face = static_cast<std::size_t>(row / height);
+            const int y = static_cast<int>(row % height);
+            const std::span<const float> by = sums.levels[0].faces[face].row(y);
+            const std::span<float> values = map.levels[0].faces[face].row(y);
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                if (by[i] == 0) continue;  // unused
+                const int c = static_cast<int>(i % 3);
+                values[i] = std::clamp(values[i] * (integral / by[i]), lowest[c], highest[c]);
+            }
+        });
 }
 
 std::vector<double> squares(std::span<const double> values) {
@@ -215,12 +218,12 @@ void PrefilterPlan::Plan::split_lobes(double tolerance) {
         const PrefilterTarget& target = targets_[i];
         const double pair_count =
             texel_count(source_) * texel_count({target.projection, target.size, target.axes});
-        const bool beyond_harmonics = lobe.angle_holding(0.5) < kNarrowest * texel ||
-                                      texel_count(source_) <= kFewTexels;
+        const bool beyond_harmonics =
+            lobe.angle_holding(0.5) < kNarrowest * texel || texel_count(source_) <= kFewTexels;
         if (beyond_harmonics && pair_count <= kMostSummedPairs) return;
         Filtered& f = filtered_[i].emplace();
-        f.whole_source_near =
-            band_count(lobe, tolerance) > kMostBands || lobe.angle_holding(0.5) < 2 * texel;
+        f.whole_source_near = band_count(lobe, tolerance) > kMostBands ||
+                              lobe.angle_holding(0.5) < kWholeSource * texel;
         f.split = split_bands(lobe, std::min(0.1, kSlack * tolerance),
                               f.whole_source_near ? kBandsBesideWholeSource : kMostBands);
         f.far.assign(f.split.far.begin(), f.split.far.end());
