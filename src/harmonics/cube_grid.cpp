@@ -54,26 +54,6 @@ class RowWeights {
         return folded_texels(all);
     }
 
-    /// The same backwards: adds a texel to eight rows of eight.
-    HWY_INLINE void add(TexelVec texel, float* HWY_RESTRICT values, std::ptrdiff_t row,
-                        const float* HWY_RESTRICT across) const {
-        const Wide d;
-        const std::size_t n = hn::Lanes(d);
-        HWY_ALIGN float rgbx[4];
-        hn::Store(texel, Texel(), rgbx);
-        const WideVec everywhere = hn::LoadDup128(d, rgbx);
-        WideVec shares[kVectorCount];
-        for (int i = 0; i < kVectorCount; ++i) shares[i] = hn::Mul(everywhere, weights_[i]);
-        HWY_UNROLL(8)
-        for (int k = 0; k < kTapCount; ++k) {
-            const WideVec w = hn::Set(d, across[k]);
-            for (int i = 0; i < kVectorCount; ++i) {
-                float* const to = values + k * row + i * n;
-                hn::StoreU(hn::MulAdd(shares[i], w, hn::LoadU(d, to)), d, to);
-            }
-        }
-    }
-
   private:
     // The i-th vector of weights, each in the lanes of one texel.
     static HWY_INLINE WideVec spread(const float* weights, int i, bool reversed) {
@@ -201,8 +181,8 @@ void make_side(const Block& block, int size, const TapList& rings, const float* 
 }
 
 void spread_side(const Block& block, int size, const TapList& rings, const float* solid_angles,
-                 const float* from, std::ptrdiff_t along_u, std::ptrdiff_t along_v,
-                 float* columns, std::size_t stride) {
+                 const float* from, std::ptrdiff_t along_u, std::ptrdiff_t along_v, float* columns,
+                 std::size_t stride) {
     const Texel d;
     const int half = (size + 1) / 2;
     for (int v = block.v0; v < block.v1; ++v) {
@@ -211,8 +191,8 @@ void spread_side(const Block& block, int size, const TapList& rings, const float
         for (int u = block.u0; u < block.u1; ++u) {
             const std::size_t at = mirrored(u, v, size, half);
             const float solid_angle = row[std::max(u, size - 1 - u) - size / 2];
-            const TexelVec value = hn::Mul(hn::LoadU(d, from + u * along_u + v * along_v),
-                                           hn::Set(d, solid_angle));
+            const TexelVec value =
+                hn::Mul(hn::LoadU(d, from + u * along_u + v * along_v), hn::Set(d, solid_angle));
             add_weighted(value, columns + rings.first[at] * stride + 4 * u,
                          static_cast<std::ptrdiff_t>(stride),
                          rings.weights.data() + at * kTapCount);
@@ -293,31 +273,17 @@ void gather_caps(float* const* planes, int column_count, const float* north, con
     }
 }
 
-// Calls f(a, b, negative) for the texels at distances a0 <= a < a1 along a quadrant's axis. Each
-// diagonal is one quadrant's, and so is the middle of a face with an odd number of texels. With
-// kStreams above 1, texels that follow each other are far apart and need not wait for each other's
-// sums.
-template <int kStreams, class F>
-HWY_INLINE void for_each_texel_of(const Quadrant& q, int a0, int a1, const F& f) {
+// Calls f(a, b, negative) for the texels at distance a along a quadrant's axis, b < 0 before b > 0.
+// Each diagonal is one quadrant's, and so is the middle of a face with an odd number of texels.
+template <class F>
+HWY_INLINE void for_each_texel_of_line(const Quadrant& q, int a, const F& f) {
     const bool odd = q.size % 2 == 1;
-    for (int a = a0; a < a1; ++a) {
-        if (a == 0 && odd) {
-            if (q.axis_column == 0) f(0, 0, false);
-            continue;
-        }
-        if constexpr (kStreams == 1) {
-            for (int b = a - 1; b >= (odd ? 1 : 0); --b) f(a, b, true);
-            for (int b = 0; b <= a; ++b) f(a, b, false);
-            continue;
-        }
-        const int stretch = (a + kStreams) / kStreams;
-        for (int i = 0; i < stretch; ++i) {
-            for (int b = i; b <= a; b += stretch) {
-                f(a, b, false);
-                if (b < a && !(b == 0 && odd)) f(a, b, true);
-            }
-        }
+    if (a == 0 && odd) {
+        if (q.axis_column == 0) f(0, 0, false);
+        return;
     }
+    for (int b = a - 1; b >= (odd ? 1 : 0); --b) f(a, b, true);
+    for (int b = 0; b <= a; ++b) f(a, b, false);
 }
 
 // Where the taps of texel (a, b) begin on the first ring of a cap.
@@ -333,7 +299,7 @@ HWY_INLINE std::ptrdiff_t first_tap(const Quadrant& q, std::size_t at, bool nega
 void make_cap(const Quadrant& q, int a0, int a1, const float* cap, const Range& range,
               float* middle, std::ptrdiff_t along, std::ptrdiff_t across,
               std::ptrdiff_t to_negative) {
-    for_each_texel_of<1>(q, a0, a1, [&](int a, int b, bool negative) HWY_ATTR {
+    const auto make_texel = [&](int a, int b, bool negative) HWY_ATTR {
         const std::size_t at = static_cast<std::size_t>(a) * q.half + b;
         const RowWeights weights(q.columns->weights.data() + at * kTapCount, negative);
         const TexelVec value =
@@ -341,23 +307,38 @@ void make_cap(const Quadrant& q, int a0, int a1, const float* cap, const Range& 
                         q.rings->weights.data() + at * kTapCount);
         float* const to = middle + a * along + (negative ? to_negative - b * across : b * across);
         store_rgb(clamped(value, range), to);
-    });
+    };
+    for (int a = a0; a < a1; ++a) for_each_texel_of_line(q, a, make_texel);
 }
 
-void spread_cap(const Quadrant& q, int a0, int a1, const float* solid_angles, const float* middle,
+// `line` has room for a value on every column that a line crosses.
+void spread_cap(const Quadrant& q, const float* solid_angles, const float* middle,
                 std::ptrdiff_t along, std::ptrdiff_t across, std::ptrdiff_t to_negative,
-                float* cap) {
+                float* line, float* cap) {
     const Texel d;
-    for_each_texel_of<4>(q, a0, a1, [&](int a, int b, bool negative) HWY_ATTR {
+    const std::size_t width = 2 * static_cast<std::size_t>(q.reach) + 1;
+    float* const centre = line + 4 * q.reach;
+    const auto add_texel = [&](int a, int b, bool negative) HWY_ATTR {
         const std::size_t at = static_cast<std::size_t>(a) * q.half + b;
-        const RowWeights weights(q.columns->weights.data() + at * kTapCount, negative);
         const float* const from =
             middle + a * along + (negative ? to_negative - b * across : b * across);
         const TexelVec value = hn::Mul(hn::LoadU(d, from), hn::Set(d, solid_angles[at]));
-        weights.add(value, cap + first_tap(q, at, negative),
-                    static_cast<std::ptrdiff_t>(q.stride),
-                    q.rings->weights.data() + at * kTapCount);
-    });
+        const std::ptrdiff_t first = 4 * std::ptrdiff_t{q.columns->first[at]};
+        add_weighted(value, centre + (negative ? -first : first), negative ? -4 : 4,
+                     q.columns->weights.data() + at * kTapCount);
+    };
+    for (int a = 0; a < q.half; ++a) {
+        std::memset(line, 0, width * 4 * sizeof(float));
+        for_each_texel_of_line(q, a, add_texel);
+        for (int c = -q.reach; c <= q.reach; ++c) {
+            const std::size_t at = static_cast<std::size_t>(a) * (q.reach + 1) + std::abs(c);
+            const int column = q.axis_column + (c < -q.axis_column ? c + q.column_count : c);
+            add_weighted(hn::Load(d, centre + 4 * c),
+                         cap + q.line_rings->first[at] * q.stride + 4 * column,
+                         static_cast<std::ptrdiff_t>(q.stride),
+                         q.line_rings->weights.data() + at * kTapCount);
+        }
+    }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -477,7 +458,19 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
             cap_columns_.set(at, psi * columns_per_radian, along_rings);
         }
     });
-    const int last = *std::max_element(cap_rings_.first.begin(), cap_rings_.first.end()) +
+    reach_ = column_count_ / 8 + kTapCount;
+    const std::size_t reach = static_cast<std::size_t>(reach_) + 1;
+    line_rings_ = TapList(half_ * reach);
+    parallel_for(half_, [&](std::int64_t i) {
+        const double a = coordinate(size_ / 2 + static_cast<int>(i));
+        for (std::size_t c = 0; c < reach; ++c) {
+            const double psi = static_cast<double>(c) / columns_per_radian;
+            line_rings_.set(i * reach + c,
+                            std::atan(a / std::cos(psi)) * rings_per_radian - 0.5 + kBeyondPole,
+                            across_rings);
+        }
+    });
+    const int last = *std::max_element(line_rings_.first.begin(), line_rings_.first.end()) +
                      kTapCount - kBeyondPole;
     cap_group_count_ = std::min(group_count_, (last + lane_count_ - 1) / lane_count_);
     cap_ring_count_ = kBeyondPole + cap_group_count_ * lane_count_;
@@ -550,8 +543,7 @@ CubeGrid::QuadrantPlacement CubeGrid::place_quadrant(int cap, int quadrant,
     const bool across_up = quadrant == 0 || quadrant == 3;
     const std::ptrdiff_t along = along_is_v ? face.along_v : face.along_u;
     const std::ptrdiff_t across = along_is_v ? face.along_u : face.along_v;
-    return {face.face,
-            face.origin + first(along_up) * along + first(across_up) * across,
+    return {face.face, face.origin + first(along_up) * along + first(across_up) * across,
             along_up ? along : -along, across_up ? across : -across};
 }
 
@@ -580,16 +572,16 @@ void CubeGrid::make_texels(Buffers& buffers, const CubePlacement& placement, con
             const FacePlacement& face = placement[side];
             HWY_DYNAMIC_DISPATCH(make_side)
             (texels, size_, side_rings_,
-             buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_,
-             side_stride_, range, faces[face.face].values().data() + face.origin, face.along_u,
-             face.along_v);
+             buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_, side_stride_, range,
+             faces[face.face].values().data() + face.origin, face.along_u, face.along_v);
             return;
         }
         const int which = static_cast<int>(task) - 4 * per_side;
         const int cap = which % 2, quadrant = which / 2 % 4, a = which / 8 * kLines;
         const QuadrantPlacement place = place_quadrant(cap, quadrant, placement);
         const Quadrant q{size_,       half_,         column_count_, quadrant * column_count_ / 4,
-                         &cap_rings_, &cap_columns_, cap_stride_};
+                         &cap_rings_, &cap_columns_, &line_rings_,  reach_,
+                         cap_stride_};
         HWY_DYNAMIC_DISPATCH(make_cap)
         (q, a, std::min(a + kLines, half_),
          buffers.caps.data() + cap * cap_ring_count_ * cap_stride_, range,
@@ -606,24 +598,26 @@ void CubeGrid::spread_texels(const std::vector<Image>& faces, const CubePlacemen
     const auto spread_quadrant = [&](int cap, int quadrant) {
         const QuadrantPlacement place = place_quadrant(cap, quadrant, placement);
         const Quadrant q{size_,       half_,         column_count_, quadrant * column_count_ / 4,
-                         &cap_rings_, &cap_columns_, cap_stride_};
+                         &cap_rings_, &cap_columns_, &line_rings_,  reach_,
+                         cap_stride_};
+        ScratchArray line(scratch_, 4 * (2 * static_cast<std::size_t>(reach_) + 1));
         HWY_DYNAMIC_DISPATCH(spread_cap)
-        (q, 0, half_, solid_angles_.data(), faces[place.face].values().data() + place.middle,
-         place.along, place.across, size_ % 2 == 0 ? -place.across : 0,
+        (q, solid_angles_.data(), faces[place.face].values().data() + place.middle, place.along,
+         place.across, size_ % 2 == 0 ? -place.across : 0, line.data(),
          buffers.caps.data() + cap * cap_ring_count_ * cap_stride_);
     };
     // Neighbouring quadrants share columns of the grid, so they take turns.
     parallel_for(4 + 4 * side_blocks, [&](std::int64_t task) {
         const FlushDenormals flush;
-        if (task < 4) return spread_quadrant(static_cast<int>(task) % 2, static_cast<int>(task) / 2 * 2);
+        if (task < 4)
+            return spread_quadrant(static_cast<int>(task) % 2, static_cast<int>(task) / 2 * 2);
         const int side = static_cast<int>(task - 4) / side_blocks;
         const int u = static_cast<int>(task - 4) % side_blocks * kBlock;
         const FacePlacement& face = placement[side];
         HWY_DYNAMIC_DISPATCH(spread_side)
         ({u, std::min(u + kBlock, size_), 0, size_}, size_, side_rings_, solid_angles_.data(),
          faces[face.face].values().data() + face.origin, face.along_u, face.along_v,
-         buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_,
-         side_stride_);
+         buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_, side_stride_);
     });
     parallel_for(4, [&](std::int64_t task) {
         const FlushDenormals flush;

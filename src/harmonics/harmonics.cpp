@@ -11,7 +11,8 @@
 namespace mirrorball {
 
 Harmonics::Harmonics(int band_count)
-    : band_count_(band_count), values_(band_count > 0 ? begin(band_count) : 0) {}
+    : band_count_(band_count),
+      values_(band_count > 0 ? begin(band_count) : 0) {}
 
 Vec3f Harmonics::coefficient(int l, int m) const {
     assert(l >= 0 && l < band_count_ && std::abs(m) <= l);

@@ -28,8 +28,8 @@ namespace mirrorball::detail {
 /// Rings that one vector of this processor holds.
 [[nodiscard]] int ring_lane_count();
 
-/// Where the columns of a grid are: azimuth psi_k = first + direction * 2 pi k / column_count, about
-/// +y from +z towards +x.
+/// Where the columns of a grid are: azimuth psi_k = first + direction * 2 pi k / column_count,
+/// about +y from +z towards +x.
 struct Columns {
     double first = 0;
     int direction = 1;  ///< or -1

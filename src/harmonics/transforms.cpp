@@ -10,8 +10,8 @@ namespace mirrorball::detail {
 namespace {
 
 // Values of a grid per value that its bands need. Eight taps then interpolate a lobe of GGX's
-// spectrum to 2e-5 of its rms; a spectrum that is cut off while it is high needs more, and few bands
-// can have it for nothing.
+// spectrum to 2e-5 of its rms; a spectrum that is cut off while it is high needs more, and few
+// bands can have it for nothing.
 constexpr double kOversampling = 1.5, kMoreOversampling = 2.2, kMostOversampling = 3;
 constexpr int kFewBands = 160;
 constexpr double kMostAtEdge = 1e-5;  // of the power, in the last quarter of the bands
@@ -70,19 +70,19 @@ EnvironmentMap empty_map(const MapShape& shape) {
 
 AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
                            int band_count, std::span<const double> power,
-                           std::shared_ptr<ScratchPool> scratch,
-                           std::optional<double> oversampling)
-    : shape_(shape), band_count_(band_count) {
+                           std::shared_ptr<ScratchPool> scratch, std::optional<double> oversampling)
+    : shape_(shape),
+      band_count_(band_count) {
     if (is_ring_grid(shape)) {
         const int width = shape.size, height = shape.size / 2;
         rings_.emplace(std::move(table), band_count, height, width, std::move(scratch));
         columns_ = panorama_columns(shape);
-        ring_weights_.assign(
-            static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(), 0.0f);
+        ring_weights_.assign(static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(),
+                             0.0f);
         for (int j = 0; j < (height + 1) / 2; ++j) {
             const double cap = std::sin(kPi * (2 * j + 1) / (2.0 * height));
-            ring_weights_[j] = static_cast<float>(2 * cap * std::sin(kPi / (2.0 * height)) * 2 *
-                                                  kPi / width);
+            ring_weights_[j] =
+                static_cast<float>(2 * cap * std::sin(kPi / (2.0 * height)) * 2 * kPi / width);
         }
         return;
     }
