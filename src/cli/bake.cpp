@@ -75,22 +75,27 @@ void print_result(const Bake& bake, const Shared& shared) {
     print(text);
 }
 
+// While a map is written, there is a copy of it in the file's form.
+constexpr std::uint64_t kResultWork = 2;
+
 // What is known of the results' size before the source is.
 std::uint64_t bytes_of_results(const BakeOptions& options, const Plans& plans) {
-    return bytes_needed(plans.targets()) +
-           bytes_needed(Projection::cube, options.environment_size, true);
+    return kResultWork * (bytes_needed(plans.targets()) +
+                          bytes_needed(Projection::cube, options.environment_size, true));
 }
 
 // An environment whose size follows from the source gets half of what the other results leave.
 void read_source(Bake& bake, const Plans& plans, const Shared& shared) {
     const std::uint64_t known = bytes_of_results(bake.options, plans);
-    const bool follows = bake.options.environment_size == 0;
     const std::uint64_t left = shared.memory_limit - known;
-    bake.source = load(bake.options.input, shared, follows ? known + left / 2 : known);
-    const std::uint64_t held = known + bytes_held(bake.source.map);
-    choose_environment_size(bake, shared.memory_limit - std::min(held, shared.memory_limit));
-    check_memory(bytes_of_results(bake.options, plans) + bytes_held(bake.source.map), "the result",
-                 shared);
+    const std::uint64_t source_share = bake.options.environment_size == 0 ? left / 2 : left;
+    bake.source =
+        load(bake.options.input, shared, shared.memory_limit - source_share / kSourceWork);
+    const std::uint64_t held = known + kSourceWork * bytes_held(bake.source.map);
+    const std::uint64_t rest = shared.memory_limit - std::min(held, shared.memory_limit);
+    choose_environment_size(bake, rest / kResultWork);
+    check_memory(bytes_of_results(bake.options, plans) + kSourceWork * bytes_held(bake.source.map),
+                 bake.options.output, shared);
 }
 
 Json run_one(const Job& job, const BakeOptions& options, Plans& plans, ProgressBar& bar,

@@ -1,12 +1,17 @@
 // Plans of prefiltering to the same targets, one per shape of the sources that come.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include <mirrorball/prefilter.h>
 
 namespace mirrorball::cli {
+
+/// What a source takes while it is prefiltered, over what it holds: the plan makes a map of its
+/// shape, and the transform needs about as much again.
+inline constexpr std::uint64_t kSourceWork = 3;
 
 /// Makes a plan when a source of a new shape comes and keeps the last few, for sources of few
 /// shapes in any order.

@@ -106,8 +106,10 @@ std::string error_text(const std::vector<double>& errors) {
 Json run_one(const Job& job, const Options& options, Plans& plans, ProgressBar& bar,
              const Shared& shared) {
     const std::uint64_t result_bytes = bytes_needed(plans.targets());
-    const EnvironmentMap source = load(job.input, options.input, shared, result_bytes).map;
-    check_memory(bytes_held(source) + result_bytes, job.output, shared);
+    const std::uint64_t source_bytes = (shared.memory_limit - result_bytes) / kSourceWork;
+    const EnvironmentMap source =
+        load(job.input, options.input, shared, shared.memory_limit - source_bytes).map;
+    check_memory(kSourceWork * bytes_held(source) + result_bytes, job.output, shared);
     Prefiltered result = options.reference
                              ? reference_levels(source, plans.targets(), bar)
                              : plans.plan_for(source)(source, bar.stage("Prefiltering"));
