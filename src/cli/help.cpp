@@ -48,7 +48,8 @@ std::string usage_line(const Command& command) {
     std::string line = "usage: mirrorball " + command.name;
     for (const Argument& argument : command.arguments) {
         const char* const brackets = argument.required ? "  " : "[]";
-        line += fmt::format(" {}{}{}", brackets[0], argument.name, brackets[1]);
+        line += fmt::format(" {}{}{}{}", brackets[0], argument.name, argument.repeated ? "..." : "",
+                            brackets[1]);
     }
     for (const Option& option : command.options) {
         if (!option.required) continue;
