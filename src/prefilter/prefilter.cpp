@@ -15,6 +15,7 @@
 
 #include "core/parallel.h"
 #include "harmonics/transforms.h"
+#include "image/map_size.h"
 #include "prefilter/band_split.h"
 #include "prefilter/error_estimate.h"
 #include "prefilter/near_pass.h"
@@ -42,6 +43,20 @@ constexpr double kEnough = 1.5;  // tolerances, as estimated, which is on the sa
 // What harmonics alone are asked for of a single lit texel, in tolerances: such a texel is put
 // right in space, and the spectra of all else fall, so that the error comes out far below.
 constexpr double kSlack = 10;
+
+// Between the texels of a small source a lobe much narrower than they are is all tail, and that
+// lies below what single precision holds next to its peak. And what a handful of texels adds up to
+// has steps. Both are summed as the reference does.
+constexpr double kNarrowest = 0.125;  // half of the lobe's light, in texels
+constexpr double kFewTexels = 64;
+constexpr double kMostSummedPairs = 1e9;
+
+// What is estimated is a mean over the sphere; maps of few texels show up to thrice as much. And
+// what single precision adds: of directions, next to lobes that are nearly deltas, and of sums.
+constexpr double kShown = 3, kNearDelta = 1e-4, kRounding = 2e-6;
+
+// Sums over a lobe that differ by less than this, in tolerances, count as equal.
+constexpr double kEvenness = 0.05;
 
 constexpr float kUnbounded = std::numeric_limits<float>::max();
 
@@ -80,6 +95,37 @@ EnvironmentMap make_target(const PrefilterTarget& target) {
     map.axes = target.axes;
     map.levels[0].lobe = target.lobe;
     return map;
+}
+
+// Is it what an earlier run made for this target?
+bool is_for(const EnvironmentMap& map, const PrefilterTarget& target) {
+    return map.levels.size() == 1 && map.levels[0].lobe == target.lobe &&
+           shape_of(map) == MapShape{target.projection, target.size, target.axes};
+}
+
+// Are all used texels this near to `value`, relatively?
+bool is_even(const EnvironmentMap& map, double value, double tolerance) {
+    const LevelStatistics s = statistics(map);
+    return s.minimum.x >= value * (1 - tolerance) && s.maximum.x <= value * (1 + tolerance);
+}
+
+// Texels over the lobe's own sum around them, times its integral.
+void divide_by_sums(const EnvironmentMap& sums, float integral, const Vec3f& lowest,
+                    const Vec3f& highest, EnvironmentMap& map) {
+    const int height = map.height();
+    parallel_for(static_cast<std::int64_t>(map.levels[0].faces.size()) * height,
+                 [&](std::int64_t row) {
+                     const auto face = static_cast<std::size_t>(row / height);
+                     const int y = static_cast<int>(row % height);
+                     const std::span<const float> by = sums.levels[0].faces[face].row(y);
+                     const std::span<float> values = map.levels[0].faces[face].row(y);
+                     for (std::size_t i = 0; i < values.size(); ++i) {
+                         if (by[i] == 0) continue;  // unused
+                         const int c = static_cast<int>(i % 3);
+                         values[i] = std::clamp(values[i] * (integral / by[i]), lowest[c],
+                                                highest[c]);
+                     }
+                 });
 }
 
 std::vector<double> squares(std::span<const double> values) {
@@ -126,6 +172,7 @@ class PrefilterPlan::Plan {
 
     double tolerance_;
 
+    // Of each target one or the other, or neither where the reference's sum is made.
     std::vector<std::optional<Filtered>> filtered_;
     std::vector<std::optional<Resampler>> resampled_;
     std::vector<double> solid_angles_;
@@ -144,6 +191,10 @@ PrefilterPlan::Plan::Plan(const MapShape& source, std::span<const PrefilterTarge
                     fmt::format("the tolerance must be above 0 and at most 0.1, found {}",
                                 options.tolerance));
     }
+    for (const PrefilterTarget& target : targets_) {
+        check_map_size(target.projection, target.size);
+        (void)target.lobe.value(1);  // refuses tables that have no values
+    }
     const EnvironmentMap shape = make_environment_map(source.projection, source.size);
     solid_angles_ = solid_angle_table(source.projection, shape.width(), shape.height());
     parallel_for(static_cast<std::int64_t>(targets_.size()), [&](std::int64_t i) {
@@ -161,6 +212,12 @@ void PrefilterPlan::Plan::split_lobes(double tolerance) {
     parallel_for(static_cast<std::int64_t>(targets_.size()), [&](std::int64_t i) {
         const Lobe& lobe = targets_[i].lobe;
         if (lobe.is_delta()) return;
+        const PrefilterTarget& target = targets_[i];
+        const double pair_count =
+            texel_count(source_) * texel_count({target.projection, target.size, target.axes});
+        const bool beyond_harmonics = lobe.angle_holding(0.5) < kNarrowest * texel ||
+                                      texel_count(source_) <= kFewTexels;
+        if (beyond_harmonics && pair_count <= kMostSummedPairs) return;
         Filtered& f = filtered_[i].emplace();
         f.whole_source_near =
             band_count(lobe, tolerance) > kMostBands || lobe.angle_holding(0.5) < 2 * texel;
@@ -212,14 +269,20 @@ void PrefilterPlan::Plan::normalise() {
     parallel_for(static_cast<std::int64_t>(targets_.size()), [&](std::int64_t i) {
         if (!filtered_[i]) return;
         Filtered& f = *filtered_[i];
-        if (f.whole_source_near) {
+        // with fewer columns than bands it depends on the longitude too
+        const bool by_latitude =
+            analysis_->on_rings() && static_cast<std::size_t>(source_.size) >= f.far.size();
+        if (f.whole_source_near || !by_latitude) {
             f.far_weights = make_target(targets_[i]);
             f.synthesis->run(ones, f.far, {}, Vec3f(-kUnbounded, -kUnbounded, -kUnbounded),
                              Vec3f(kUnbounded, kUnbounded, kUnbounded),
                              f.far_weights->levels[0].faces);
+            // a lobe that is wide next to the source's texels has even sums
+            if (!f.whole_source_near &&
+                is_even(*f.far_weights, targets_[i].lobe.integral(), kEvenness * tolerance_))
+                f.far_weights.reset();
             return;
         }
-        if (!analysis_->on_rings()) return;
         const std::vector<double> colatitudes = f.synthesis->pair_colatitudes();
         std::vector<double> x, sums(colatitudes.size()), series;
         for (const double theta : colatitudes) x.push_back(1 - std::cos(theta));
@@ -287,15 +350,22 @@ void PrefilterPlan::Plan::run_target(std::size_t i, const Source& source,
     const Vec3f lowest = source.range.lowest * integral, highest = source.range.highest * integral;
     const bool has_near = f.whole_source_near || source.choices[i];
     const Vec3f bound(kUnbounded, kUnbounded, kUnbounded);
-    f.synthesis->run(source.harmonics, f.far, f.ring_weights, has_near ? -bound : lowest,
-                     has_near ? bound : highest, map.levels[0].faces);
+    const bool unfinished = has_near || f.far_weights;
+    f.synthesis->run(source.harmonics, f.far, f.ring_weights, unfinished ? -bound : lowest,
+                     unfinished ? bound : highest, map.levels[0].faces);
     double& error = result.errors[i];
     error = spectral_error(f, source.spectrum);
     if (f.whole_source_near) {
         add_near_normalised(*source.whole, f.split.near, *f.far_weights, integral, lowest, highest,
                             map);
-        error = wave_error(f, source.spectrum);
-    } else if (source.choices[i]) {
+        error = kShown * wave_error(f, source.spectrum) + kNearDelta;
+        return;
+    }
+    if (f.far_weights) {
+        divide_by_sums(*f.far_weights, integral, has_near ? -bound : lowest,
+                       has_near ? bound : highest, map);
+    }
+    if (source.choices[i]) {
         const Source::Lights& lights = *source.lights[*source.choices[i]];
         add_near(lights.field, f.split.near, lowest, highest, map);
         // what is left has less of everything, of fine detail even more so, and cannot be off by
@@ -303,15 +373,16 @@ void PrefilterPlan::Plan::run_target(std::size_t i, const Source& source,
         error = wave_error(f, source.spectrum) +
                 std::min(error * lights.rest / source.deviation, f.split.tail * lights.rest);
     }
+    error = kShown * error + kRounding;
 }
 
 void PrefilterPlan::Plan::run(const EnvironmentMap& source, Prefiltered& result,
                               const Progress& progress) const {
     if (shape_of(source) != source_)
         throw Error(Errc::usage, "the map to prefilter is not of the shape that was planned for");
-    if (result.maps.size() != targets_.size()) {
-        result.maps.resize(targets_.size());
-        for (std::size_t i = 0; i < targets_.size(); ++i) result.maps[i] = make_target(targets_[i]);
+    result.maps.resize(targets_.size());
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        if (!is_for(result.maps[i], targets_[i])) result.maps[i] = make_target(targets_[i]);
     }
     result.errors.assign(targets_.size(), 0);
 
@@ -336,8 +407,10 @@ void PrefilterPlan::Plan::run(const EnvironmentMap& source, Prefiltered& result,
         [&](std::int64_t i) {
             if (resampled_[i])
                 (*resampled_[i])(source, result.maps[i]);
-            else
+            else if (filtered_[i])
                 run_target(static_cast<std::size_t>(i), s, result);
+            else
+                result.maps[i] = prefilter_reference(source, targets_[i]);
         },
         progress);
 }
