@@ -10,6 +10,8 @@
 #include <mirrorball/prefilter.h>
 
 #include "bake.h"
+#include "batch.h"
+#include "chain.h"
 #include "interrupt.h"
 #include "io/file.h"
 #include "verbs.h"
@@ -56,19 +58,8 @@ void name_files(Bake& bake) {
     bake.diffuse.use = "Irradiance: look up by the normal, times albedo / pi.";
 }
 
-// What the source and the results hold; once before anything is read and once with what was read.
-void check_sizes(const Bake& bake, const Shared& shared) {
-    const BakeOptions& options = bake.options;
-    std::uint64_t bytes = bytes_held(bake.source.map);
-    for (const int size : {options.size, options.diffuse_size, options.environment_size}) {
-        if (size > 0) bytes += bytes_needed(Projection::cube, size, true);
-    }
-    check_memory(bytes, "the result", shared);
-}
-
 void print_result(const Bake& bake, const Shared& shared) {
-    if (shared.json) return print_json(bake_json(bake));
-    if (shared.quiet) return;
+    if (shared.json || shared.quiet) return;
     std::string text;
     for (const BakedMap* baked : {&bake.environment, &bake.specular, &bake.phong, &bake.diffuse}) {
         text += fmt::format("{:<20} {}, {}\n", baked->file, shape_text(baked->map),
@@ -84,35 +75,67 @@ void print_result(const Bake& bake, const Shared& shared) {
     print(text);
 }
 
-int run(const BakeOptions& options, const Shared& shared) {
+// While a map is written, there is a copy of it in the file's form.
+constexpr std::uint64_t kResultWork = 2;
+
+// What is known of the results' size before the source is.
+std::uint64_t bytes_of_results(const BakeOptions& options, const Plans& plans) {
+    return kResultWork * (bytes_needed(plans.targets()) +
+                          bytes_needed(Projection::cube, options.environment_size, true));
+}
+
+// An environment whose size follows from the source gets half of what the other results leave.
+void read_source(Bake& bake, const Plans& plans, const Shared& shared) {
+    const std::uint64_t known = bytes_of_results(bake.options, plans);
+    const std::uint64_t left = shared.memory_limit - known;
+    const std::uint64_t source_share = bake.options.environment_size == 0 ? left / 2 : left;
+    bake.source =
+        load(bake.options.input, shared, shared.memory_limit - source_share / kSourceWork);
+    const std::uint64_t held = known + kSourceWork * bytes_held(bake.source.map);
+    const std::uint64_t rest = shared.memory_limit - std::min(held, shared.memory_limit);
+    choose_environment_size(bake, rest / kResultWork);
+    check_memory(bytes_of_results(bake.options, plans) + kSourceWork * bytes_held(bake.source.map),
+                 bake.options.output, shared);
+}
+
+Json run_one(const Job& job, const BakeOptions& options, Plans& plans, ProgressBar& bar,
+             const Shared& shared) {
     Bake bake;
     bake.options = options;
-    check_sizes(bake, shared);
+    bake.options.input.source = job.input;
+    bake.options.output = job.output;
     name_files(bake);
-    TemporaryFolder folder(options.output);
+    TemporaryFolder folder(job.output);
     Stopwatch watch;
-    bake.source = load(options.input, shared);
-    choose_environment_size(bake);
-    check_sizes(bake, shared);
+    read_source(bake, plans, shared);
     bake.timings.push_back({"reading", watch.lap()});
-    {
-        ProgressBar bar(shared);
-        compute_maps(bake, bar);
-        write_maps(bake, folder.path());
-        watch.lap();
-        write_pictures(bake, folder.path(), bar.stage("Pictures", 0.2));
-        bake.timings.push_back({"pictures", watch.lap()});
-    }
+    compute_maps(bake, plans, bar);
+    write_maps(bake, folder.path());
+    watch.lap();
+    write_pictures(bake, folder.path(), bar.stage("Pictures", 0.2));
+    bake.timings.push_back({"pictures", watch.lap()});
     write_json(folder.path() / "irradiance-sh.json", harmonics_json(bake));
     write_json(folder.path() / "bake.json", bake_json(bake));
     write_text(folder.path() / "index.html", report_html(bake));
     stop_if_interrupted();
-    folder.move_to(options.output);
+    folder.move_to(job.output);
+    bar.hide();
     for (const BakedMap* baked : {&bake.environment, &bake.specular, &bake.phong, &bake.diffuse}) {
         tell_clipped(baked->file, baked->written, shared);
     }
     print_result(bake, shared);
-    return 0;
+    return bake_json(bake);
+}
+
+int run(const BakeOptions& options, const Shared& shared) {
+    Plans plans(bake_targets(options), options.prefilter);
+    check_memory(bytes_of_results(options, plans), "the result", shared);
+    const Batch batch = options.sources.size() == 1
+                            ? Batch{{{options.sources.front(), options.output}}, ""}
+                            : batch_into(options.output, options.sources, "");
+    return run_batch(batch, shared, [&](const Job& job, ProgressBar& bar) {
+        return run_one(job, options, plans, bar, shared);
+    });
 }
 
 }  // namespace
@@ -123,9 +146,12 @@ Command bake_command(Shared& shared) {
     Command command{
         .name = "bake",
         .summary = "All that a renderer needs of an environment, and a page that shows it."};
-    add_input_argument(command, options->input);
+    add_inputs_argument(command, options->sources);
     command.options = {
-        {"-o,--output", "DIR", "folder for the results; made when it is not there",
+        {"-o,--output", "DIR",
+         "folder for the results; made when it is not there, as is one in it per input if there "
+         "are "
+         "several",
          text(options->output), file_choices(), true},
         {"--size", "N", "edge of a face of the specular chain [256]",
          whole_number(options->size, 16, kLargestSize)},
@@ -135,6 +161,7 @@ Command bake_command(Shared& shared) {
          mapping_choices()},
         {"--phong", "N,N,...", "exponents, one level each; stored from the sharpest [10,100,1000]",
          parsed(options->phong, parse_exponents)},
+        tolerance_option(options->prefilter.tolerance),
         {"--environment-size", "N", "edge of a face of the environment [keeps the resolution]",
          whole_number(options->environment_size, 1, kLargestSize)},
         {"--diffuse-size", "N", "edge of a face of the irradiance map [64]",
@@ -150,9 +177,11 @@ Command bake_command(Shared& shared) {
         "DIR gets environment.ktx2 (cube with mips), specular.ktx2 (GGX, one level per roughness), "
         "phong.ktx2 (one level per exponent, each of half the size), diffuse.ktx2 (irradiance), "
         "irradiance-sh.json (nine coefficients), bake.json (all figures) and index.html with its "
-        "pictures. All of them appear together at the end, or none."};
+        "pictures. All of them appear together at the end, or none.",
+        kBatchNote};
     command.examples = {"mirrorball bake studio.hdr -o studio",
                         "mirrorball bake builtin:sunset -o sunset --size 512 --mapping filament",
+                        "mirrorball bake skies/*.hdr -o baked",
                         "mirrorball bake faces/%s.exr -o room --phong 20,200"};
     command.run = [options, &shared] { return run(*options, shared); };
     return command;

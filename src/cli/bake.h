@@ -6,20 +6,23 @@
 #include <string>
 #include <vector>
 
-#include <mirrorball/nine_harmonics.h>
 #include <mirrorball/io.h>
+#include <mirrorball/nine_harmonics.h>
 
 #include "options.h"
 #include "output.h"
+#include "plans.h"
 #include "progress.h"
 
 namespace mirrorball::cli {
 
 struct BakeOptions {
-    Input input;
+    Input input;  ///< its source is the one that is being baked
+    std::vector<std::string> sources;
     std::string output, mapping = "gltf";
     std::vector<Lobe> phong;
     int size = 256, level_count = 0, environment_size = 0, diffuse_size = 64;
+    PrefilterOptions prefilter;
     TexelFormat format = TexelFormat::rgba16f;
 };
 
@@ -29,6 +32,7 @@ struct LevelFacts {
     std::optional<Lobe> lobe;
     LevelStatistics statistics;
     double seam_ratio;
+    std::optional<double> estimated_error;  ///< of prefiltering
     /// This level's flux over what the source's flux should have become, per channel.
     Vec3d flux_ratio;
 };
@@ -37,6 +41,7 @@ struct LevelFacts {
 struct BakedMap {
     std::string file, use;  ///< "specular.ktx2"; what a renderer does with it
     EnvironmentMap map;
+    std::vector<double> estimated_errors;  ///< per level; empty where nothing is prefiltered
     std::vector<LevelFacts> facts;
     WriteReport written;
 };
@@ -72,10 +77,14 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Sets the size of the environment's faces where the options leave it to the source.
-void choose_environment_size(Bake& bake);
-/// The maps, from the source (bake_maps.cpp).
-void compute_maps(Bake& bake, ProgressBar& bar);
+/// What is prefiltered of any source: the levels of the specular chain, those of the Phong chain,
+/// the irradiance (bake_maps.cpp).
+[[nodiscard]] std::vector<PrefilterTarget> bake_targets(const BakeOptions& options);
+/// Sets the size of the environment's faces where the options leave it to the source: its
+/// resolution, or what `most_bytes` hold.
+void choose_environment_size(Bake& bake, std::uint64_t most_bytes);
+/// The maps, from the source.
+void compute_maps(Bake& bake, Plans& plans, ProgressBar& bar);
 /// The .ktx2 files; sets `written` of each map.
 void write_maps(Bake& bake, const std::filesystem::path& folder);
 /// The tone-mapped PNGs that the report shows (bake_pictures.cpp).

@@ -15,7 +15,8 @@ Json facts_json(const LevelFacts& facts) {
             {"rms", s.rms},
             {"flux", to_json(s.flux)},
             {"flux_ratio", to_json(facts.flux_ratio)},
-            {"seam_ratio", facts.seam_ratio}};
+            {"seam_ratio", facts.seam_ratio},
+            {"estimated_error", facts.estimated_error ? Json(*facts.estimated_error) : Json()}};
 }
 
 Json map_json(const BakedMap& baked) {
@@ -52,6 +53,7 @@ Json options_json(const BakeOptions& options) {
     for (const Lobe& lobe : options.phong) phong.push_back(lobe.parameter);
     return {{"size", options.size},
             {"mapping", options.mapping},
+            {"tolerance", options.prefilter.tolerance},
             {"phong", phong},
             {"environment_size", options.environment_size},
             {"diffuse_size", options.diffuse_size},

@@ -38,14 +38,16 @@ Vec3d ratio(const Vec3d& a, const Vec3d& b) {
     return {a.x / b.x, a.y / b.y, a.z / b.z};
 }
 
-std::vector<LevelFacts> facts_of(const EnvironmentMap& map, const Vec3d& source_flux) {
+std::vector<LevelFacts> facts_of(const BakedMap& baked, const Vec3d& source_flux) {
     std::vector<LevelFacts> facts;
-    for (int level = 0; level < map.level_count(); ++level) {
-        const auto& lobe = map.levels[level].lobe;
-        const LevelStatistics s = statistics(map, level);
+    for (int level = 0; level < baked.map.level_count(); ++level) {
+        const auto& lobe = baked.map.levels[level].lobe;
+        const LevelStatistics s = statistics(baked.map, level);
         const double integral = lobe ? lobe->integral() : 1;
-        facts.push_back({level, map.width(level), lobe, s, seam_ratio(map, level),
-                         ratio(s.flux, source_flux * integral)});
+        std::optional<double> error;
+        if (!baked.estimated_errors.empty()) error = baked.estimated_errors[level];
+        facts.push_back({level, baked.map.width(level), lobe, s, seam_ratio(baked.map, level),
+                         error, ratio(s.flux, source_flux * integral)});
     }
     return facts;
 }
@@ -76,43 +78,56 @@ void make_environment(Bake& bake, ProgressBar& bar) {
     append_mip_levels(map);
 }
 
-void make_prefiltered(Bake& bake, ProgressBar& bar) {
-    const BakeOptions& options = bake.options;
-    const Axes axes = default_axes(Projection::cube);
-    const int levels =
-        options.level_count > 0 ? options.level_count : usual_level_count(options.size);
-    const auto specular =
-        chain_targets(level_lobes(options.mapping, levels), Projection::cube, options.size, axes);
-    const auto phong =
-        chain_targets(options.phong, Projection::cube, phong_size(options.phong), axes);
-    std::vector<PrefilterTarget> targets = specular;
-    targets.insert(targets.end(), phong.begin(), phong.end());
-    targets.push_back({{Lobe::Kind::diffuse}, Projection::cube, options.diffuse_size, axes});
-
-    auto results = prefilter(bake.source.map, targets, bar.stage("Prefiltering", 0.75));
-    bake.diffuse.map = std::move(results.back());
-    const auto end = results.end() - 1, middle = results.begin() + std::ssize(specular);
-    bake.specular.map = join_levels({results.begin(), middle});
-    bake.phong.map = join_levels({middle, end});
+// The maps of the targets that bake_targets() names, in its order.
+void make_prefiltered(Bake& bake, Plans& plans, ProgressBar& bar) {
+    const Progress progress = bar.stage("Prefiltering", 0.75);
+    Prefiltered results = plans.plan_for(bake.source.map)(bake.source.map, progress);
+    auto map = results.maps.begin();
+    auto error = results.errors.begin();
+    const auto take = [&](BakedMap& baked, std::ptrdiff_t count) {
+        baked.map = join_levels({std::move_iterator(map), std::move_iterator(map + count)});
+        baked.estimated_errors.assign(error, error + count);
+        map += count;
+        error += count;
+    };
+    const std::ptrdiff_t phong_count = std::ssize(bake.options.phong);
+    take(bake.specular, std::ssize(results.maps) - phong_count - 1);
+    take(bake.phong, phong_count);
+    take(bake.diffuse, 1);
 }
 
 }  // namespace
 
-void choose_environment_size(Bake& bake) {
-    if (bake.options.environment_size > 0) return;
-    const int size = size_that_keeps_resolution(bake.source.map, Projection::cube);
-    bake.options.environment_size =
-        std::min(kLargestEnvironment, static_cast<int>(std::bit_ceil(static_cast<unsigned>(size))));
+std::vector<PrefilterTarget> bake_targets(const BakeOptions& options) {
+    const Axes axes = default_axes(Projection::cube);
+    const int levels =
+        options.level_count > 0 ? options.level_count : usual_level_count(options.size);
+    std::vector<PrefilterTarget> targets =
+        chain_targets(level_lobes(options.mapping, levels), Projection::cube, options.size, axes);
+    const auto phong =
+        chain_targets(options.phong, Projection::cube, phong_size(options.phong), axes);
+    targets.insert(targets.end(), phong.begin(), phong.end());
+    targets.push_back({{Lobe::Kind::diffuse}, Projection::cube, options.diffuse_size, axes});
+    return targets;
 }
 
-void compute_maps(Bake& bake, ProgressBar& bar) {
+void choose_environment_size(Bake& bake, std::uint64_t most_bytes) {
+    int& size = bake.options.environment_size;
+    if (size > 0) return;
+    const int kept = size_that_keeps_resolution(bake.source.map, Projection::cube);
+    size =
+        std::min(kLargestEnvironment, static_cast<int>(std::bit_ceil(static_cast<unsigned>(kept))));
+    while (size > 1 && bytes_needed(Projection::cube, size, true) > most_bytes) size /= 2;
+}
+
+void compute_maps(Bake& bake, Plans& plans, ProgressBar& bar) {
     Stopwatch watch;
     bake.source_statistics = statistics(bake.source.map);
     make_environment(bake, bar);
     bake.exposure = usual_exposure(bake.environment.map);
     bake.timings.push_back({"cube and its mips", watch.lap()});
 
-    make_prefiltered(bake, bar);
+    make_prefiltered(bake, plans, bar);
     bake.timings.push_back({"prefiltering", watch.lap()});
 
     bake.radiance = analyse_nine(bake.source.map);
@@ -124,7 +139,7 @@ void compute_maps(Bake& bake, ProgressBar& bar) {
 
     for (BakedMap* baked : {&bake.environment, &bake.specular, &bake.phong, &bake.diffuse}) {
         stop_if_interrupted();
-        baked->facts = facts_of(baked->map, bake.source_statistics.flux);
+        baked->facts = facts_of(*baked, bake.source_statistics.flux);
     }
     bake.timings.push_back({"figures", watch.lap()});
 }

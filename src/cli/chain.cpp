@@ -6,7 +6,7 @@
 
 #include <mirrorball/error.h>
 
-#include "command.h"
+#include "options.h"
 
 namespace mirrorball::cli {
 namespace {
@@ -87,6 +87,29 @@ EnvironmentMap join_levels(std::vector<EnvironmentMap> levels) {
     EnvironmentMap chain{levels.front().projection, levels.front().axes, {}};
     for (EnvironmentMap& level : levels) chain.levels.push_back(std::move(level.levels.front()));
     return chain;
+}
+
+std::uint64_t bytes_needed(std::span<const PrefilterTarget> targets) {
+    std::uint64_t bytes = 0;
+    for (const PrefilterTarget& target : targets)
+        bytes += bytes_needed(target.projection, target.size, false);
+    return bytes;
+}
+
+Option tolerance_option(double& tolerance) {
+    const SetValue set = [&tolerance](const std::string& typed) {
+        constexpr double most = 0.1;
+        const double value = parse_real_number(typed, 0, most);
+        if (value == 0) {
+            throw Error(Errc::usage,
+                        fmt::format("\"{}\" is not a number above 0 and up to {}", typed, most));
+        }
+        tolerance = value;
+    };
+    return {"--tolerance", "T",
+            "of prefiltering: what a level may be off by, rms over its own rms [1e-4; above 0, up "
+            "to 0.1]",
+            set};
 }
 
 int usual_level_count(int size) {

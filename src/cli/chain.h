@@ -1,10 +1,14 @@
 // Chains: prefiltered levels of halving size in one map.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <mirrorball/prefilter.h>
+
+#include "command.h"
 
 namespace mirrorball::cli {
 
@@ -20,6 +24,12 @@ namespace mirrorball::cli {
                                                          Projection projection, int size,
                                                          const Axes& axes);
 [[nodiscard]] EnvironmentMap join_levels(std::vector<EnvironmentMap> levels);
+
+/// What the maps of the targets hold.
+[[nodiscard]] std::uint64_t bytes_needed(std::span<const PrefilterTarget> targets);
+
+/// --tolerance.
+[[nodiscard]] Option tolerance_option(double& tolerance);
 
 /// Levels from `size` down to the last that has 16 texels or more: fewer cannot show even the
 /// widest lobe without visible facets between their centres.

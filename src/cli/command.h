@@ -38,6 +38,7 @@ struct Argument {
     SetValue set;
     Choices choices = {};
     bool required = true;
+    bool repeated = false;  ///< takes all words that are left, one after the other; the last only
 };
 
 struct Command {

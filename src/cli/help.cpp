@@ -48,7 +48,8 @@ std::string usage_line(const Command& command) {
     std::string line = "usage: mirrorball " + command.name;
     for (const Argument& argument : command.arguments) {
         const char* const brackets = argument.required ? "  " : "[]";
-        line += fmt::format(" {}{}{}", brackets[0], argument.name, brackets[1]);
+        line += fmt::format(" {}{}{}{}", brackets[0], argument.name, argument.repeated ? "..." : "",
+                            brackets[1]);
     }
     for (const Option& option : command.options) {
         if (!option.required) continue;
@@ -82,7 +83,7 @@ std::string help_text(const std::vector<Command>& commands) {
         "Environment maps: read, convert, prefilter, show and prove them.\n\n"
         "usage: mirrorball VERB [options]\n\n";
     for (const Command& command : commands) {
-        text += fmt::format("  {:<12}{}\n", command.name, command.summary);
+        text += fmt::format("  {:<15}{}\n", command.name, command.summary);
     }
     return text +
            "\n  mirrorball VERB --help    options and examples of a verb\n"

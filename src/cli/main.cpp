@@ -1,7 +1,6 @@
 // mirrorball: finds the verb, runs it on the threads asked for, turns errors into exit codes.
 #include <algorithm>
 #include <cstdio>
-#include <new>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -16,28 +15,11 @@
 namespace mirrorball::cli {
 namespace {
 
-constexpr int kUsage = 2;
-
-int exit_code(Errc code) {
-    switch (code) {
-        case Errc::usage:
-            return kUsage;
-        case Errc::cannot_read:
-            return 3;
-        case Errc::cannot_write:
-            return 4;
-        case Errc::unsupported:
-            return 5;
-        case Errc::cancelled:
-            return kInterruptedExitCode;
-    }
-    return kUsage;
-}
-
 std::vector<Command> all_commands(Shared& shared) {
     std::vector<Command> commands = {info_command(shared),      convert_command(shared),
-                                     prefilter_command(shared), bake_command(shared),
-                                     compare_command(shared),   sky_command(shared)};
+                                     prefilter_command(shared), irradiance_sh_command(shared),
+                                     bake_command(shared),      compare_command(shared),
+                                     sky_command(shared)};
     commands.push_back(completion_command(shared, commands));
     return commands;
 }
@@ -65,7 +47,7 @@ int run(const std::vector<std::string>& arguments) {
     const std::vector<Command> commands = all_commands(shared);
     if (arguments.empty()) {
         fmt::print(stderr, "{}", help_text(commands));
-        return kUsage;
+        return kUsageExitCode;
     }
     const std::string& verb = arguments.front();
     if (verb == "--help" || verb == "-h") return print(help_text(commands)), 0;
@@ -78,11 +60,6 @@ int run(const std::vector<std::string>& arguments) {
     return run_on_threads(shared.threads, command.run);
 }
 
-int report(int code, const std::string& message) {
-    fmt::print(stderr, "mirrorball: {}\n", message);
-    return code;
-}
-
 }  // namespace
 }  // namespace mirrorball::cli
 
@@ -91,12 +68,9 @@ int main(int argc, char** argv) {
     cli::watch_for_interrupts();
     try {
         return cli::run({argv + 1, argv + argc});
-    } catch (const Error& error) {
-        const bool stopped = error.code() == Errc::cancelled;
-        return cli::report(cli::exit_code(error.code()), stopped ? "interrupted" : error.what());
-    } catch (const std::bad_alloc&) {
-        return cli::report(cli::kUsage, "not enough memory; a smaller --size needs less");
-    } catch (const std::exception& error) {
-        return cli::report(cli::kUsage, error.what());
+    } catch (...) {
+        const cli::Failure failure = cli::current_failure();
+        cli::tell_failure(failure);
+        return failure.exit_code;
     }
 }

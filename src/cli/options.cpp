@@ -16,6 +16,10 @@
 namespace mirrorball::cli {
 namespace {
 
+constexpr const char* kInputHelp =
+    "a file, a pattern for the faces (faces/%s.hdr), their names separated by commas, or "
+    "builtin:NAME";
+
 std::uint64_t default_memory_limit() {
     const auto pages = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES));
     return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / 4 * 3;
@@ -129,10 +133,14 @@ void add_shared_options(Command& command, Shared& shared) {
 }
 
 void add_input_argument(Command& command, Input& input, bool required) {
-    command.arguments.push_back({"IN",
-                                 "a file, a pattern for the faces (faces/%s.hdr), their names "
-                                 "separated by commas, or builtin:NAME",
-                                 text(input.source), input_choices(), required});
+    command.arguments.push_back({"IN", kInputHelp, text(input.source), input_choices(), required});
+}
+
+void add_inputs_argument(Command& command, std::vector<std::string>& sources) {
+    const SetValue add = [&sources](const std::string& typed) {
+        text(sources.emplace_back())(typed);
+    };
+    command.arguments.push_back({"IN", kInputHelp, add, input_choices(), true, true});
 }
 
 void add_input_options(Command& command, Input& input) {

@@ -30,6 +30,8 @@ struct Input {
     MapReadOptions options;
 };
 void add_input_argument(Command& command, Input& input, bool required = true);
+/// Any number of them, at least one.
+void add_inputs_argument(Command& command, std::vector<std::string>& sources);
 void add_input_options(Command& command, Input& input);
 
 /// Reads the map within the limit on memory and tells the notes. Missing input is a usage error. A

@@ -3,15 +3,53 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <new>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <mirrorball/error.h>
 
+#include "interrupt.h"
 #include "options.h"
 
 namespace mirrorball::cli {
+namespace {
+
+int exit_code(Errc code) {
+    switch (code) {
+        case Errc::usage:
+            return kUsageExitCode;
+        case Errc::cannot_read:
+            return 3;
+        case Errc::cannot_write:
+            return 4;
+        case Errc::unsupported:
+            return 5;
+        case Errc::cancelled:
+            return kInterruptedExitCode;
+    }
+    return kUsageExitCode;
+}
+
+}  // namespace
+
+Failure current_failure() {
+    try {
+        throw;
+    } catch (const Error& error) {
+        if (error.code() == Errc::cancelled) return {kInterruptedExitCode, "interrupted", true};
+        return {exit_code(error.code()), error.what()};
+    } catch (const std::bad_alloc&) {
+        return {kUsageExitCode, "not enough memory; a smaller --size needs less"};
+    } catch (const std::exception& error) {
+        return {kUsageExitCode, error.what()};
+    }
+}
+
+void tell_failure(const Failure& failure) {
+    fmt::print(stderr, "mirrorball: {}\n", failure.message);
+}
 
 void print(const std::string& text) {
     errno = 0;
@@ -81,7 +119,12 @@ void print_written(const std::string& target, const EnvironmentMap& map, const W
     tell_clipped(target, report, shared);
     if (shared.json) return print_json(to_json(target, map, report));
     if (shared.quiet) return;
-    print(fmt::format("{}: {}, {}\n", target, shape_text(map), bytes_text(report.byte_count)));
+    print(written_text(target, map, report));
+}
+
+std::string written_text(const std::string& target, const EnvironmentMap& map,
+                         const WriteReport& report) {
+    return fmt::format("{}: {}, {}\n", target, shape_text(map), bytes_text(report.byte_count));
 }
 
 }  // namespace mirrorball::cli

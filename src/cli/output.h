@@ -10,12 +10,25 @@
 
 namespace mirrorball::cli {
 
+inline constexpr int kUsageExitCode = 2;
+
 struct Shared;
 using Json = nlohmann::ordered_json;  // keys stay in the order in which they were written
 
 /// A verb's result. \throws Error(Errc::cannot_write) if stdout does not take it
 void print(const std::string& text);
 void print_json(const Json& json);
+
+/// What the program says of an error, and the exit code that stands for it.
+struct Failure {
+    int exit_code;
+    std::string message;
+    bool interrupted = false;
+};
+/// Of the exception that is being handled.
+[[nodiscard]] Failure current_failure();
+/// `mirrorball: MESSAGE` on stderr.
+void tell_failure(const Failure& failure);
 
 /// `mirrorball: note: ...` on stderr, unless --quiet.
 void tell(const Shared& shared, const std::string& note);
@@ -33,6 +46,9 @@ void tell(const Shared& shared, const std::string& note);
 /// Prints what was written and tells what it had to clip.
 void print_written(const std::string& target, const EnvironmentMap& map, const WriteReport& report,
                    const Shared& shared);
+/// One line of it.
+[[nodiscard]] std::string written_text(const std::string& target, const EnvironmentMap& map,
+                                       const WriteReport& report);
 [[nodiscard]] Json to_json(const std::string& target, const EnvironmentMap& map,
                            const WriteReport& report);
 void tell_clipped(const std::string& target, const WriteReport& report, const Shared& shared);

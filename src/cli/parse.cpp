@@ -91,14 +91,17 @@ void deliver_arguments(const Command& command, const std::vector<std::string>& w
     for (const std::string& word : words) {
         if (word.size() > 1 && word[0] == '-') report_unknown_option(command, word);
     }
-    if (words.size() > command.arguments.size()) {
+    const bool any_number = !command.arguments.empty() && command.arguments.back().repeated;
+    if (words.size() > command.arguments.size() && !any_number) {
         throw Error(Errc::usage, fmt::format("unexpected argument \"{}\"; see mirrorball {} --help",
                                              words[command.arguments.size()], command.name));
     }
     for (std::size_t i = 0; i < command.arguments.size(); ++i) {
         const Argument& argument = command.arguments[i];
         if (i < words.size()) {
-            set_value(argument.name, argument.set, argument.choices, words[i]);
+            const std::size_t end = argument.repeated ? words.size() : i + 1;
+            for (std::size_t word = i; word < end; ++word)
+                set_value(argument.name, argument.set, argument.choices, words[word]);
         } else if (argument.required) {
             throw Error(Errc::usage, fmt::format("{} is missing; see mirrorball {} --help",
                                                  argument.name, command.name));

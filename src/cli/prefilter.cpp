@@ -1,14 +1,16 @@
 // mirrorball prefilter: an environment blurred by one lobe, or by one per level.
 #include <memory>
+#include <span>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <mirrorball/error.h>
 #include <mirrorball/prefilter.h>
 
+#include "batch.h"
 #include "chain.h"
-#include "output.h"
-#include "progress.h"
+#include "plans.h"
 #include "targets.h"
 #include "verbs.h"
 
@@ -17,66 +19,118 @@ namespace {
 
 struct Options {
     Input input;
-    std::string output, lobe, mapping;
+    std::vector<std::string> sources;
+    std::string output, ending, lobe, mapping;
     Projection projection = Projection::cube;
     int size = 0, levels = 0;
+    double tolerance = 0;  // the library's where 0
     bool reference = false;
     MapWriteOptions write;
 };
 
 constexpr int kUsualSize = 256, kUsualDiffuseSize = 64;
+constexpr const char* kUsualEnding = ".ktx2";
 
 int usual_size(const std::string& lobe, Projection projection) {
     const int size = lobe == "diffuse" ? kUsualDiffuseSize : kUsualSize;
     return projection == Projection::equirect ? 4 * size : size;
 }
 
-std::vector<PrefilterTarget> targets_of(const Options& options) {
+// Where the results go, checked before any work.
+Batch batch_of(const Options& options) {
+    if (names_folder(options.output)) {
+        const std::string ending = options.ending.empty() ? kUsualEnding : options.ending;
+        check_format("result" + ending, options.write);
+        return batch_into(options.output, options.sources, ending);
+    }
+    if (options.sources.size() > 1) {
+        throw Error(Errc::usage,
+                    fmt::format("--output: {} is one file for {} inputs; the name of a folder ends "
+                                "in a slash",
+                                options.output, options.sources.size()));
+    }
+    if (!options.ending.empty()) {
+        throw Error(Errc::usage,
+                    "--ending is for results in a folder; -o names a file, which has "
+                    "its own");
+    }
+    check_target(options.output, options.write);
+    return {{{options.sources.front(), options.output}}, ""};
+}
+
+std::vector<PrefilterTarget> targets_of(const Options& options, const Batch& batch) {
     const int size = options.size > 0 ? options.size : usual_size(options.lobe, options.projection);
     check_size(options.projection, size);
     const int levels = options.levels > 0 ? options.levels : usual_level_count(size);
     const auto lobes = parse_lobes(options.lobe, options.mapping, levels);
-    if (lobes.size() > 1 && !holds_levels(options.output)) {
+    const std::string& output = batch.jobs.front().output;
+    if (lobes.size() > 1 && !holds_levels(output)) {
         throw Error(Errc::usage,
                     fmt::format("--lobe {} makes {} levels, {} holds one; .ktx2 and .dds "
                                 "hold all",
-                                options.lobe, lobes.size(), options.output));
+                                options.lobe, lobes.size(), output));
     }
     return chain_targets(lobes, options.projection, size, default_axes(options.projection));
 }
 
-std::vector<EnvironmentMap> reference_levels(const EnvironmentMap& source,
-                                             const std::vector<PrefilterTarget>& targets,
-                                             ProgressBar& bar) {
+PrefilterOptions prefilter_options(const Options& options) {
+    if (options.tolerance == 0) return {};
+    if (options.reference) {
+        throw Error(Errc::usage, "--reference is exact, --tolerance is for the fast way; give one");
+    }
+    return {options.tolerance};
+}
+
+Prefiltered reference_levels(const EnvironmentMap& source, std::span<const PrefilterTarget> targets,
+                             ProgressBar& bar) {
     double texels = 0;
     for (const PrefilterTarget& target : targets)
         texels += static_cast<double>(target.size) * target.size;
-    std::vector<EnvironmentMap> levels;
+    Prefiltered result;
     for (const PrefilterTarget& target : targets) {
         const double share = static_cast<double>(target.size) * target.size / texels;
-        levels.push_back(
+        result.maps.push_back(
             prefilter_reference(source, target, bar.stage(to_string(target.lobe), share)));
     }
-    return levels;
+    return result;
+}
+
+// "estimated error: 0 at level 0, ..."; nothing for the reference, which estimates nothing.
+std::string error_text(const std::vector<double>& errors) {
+    if (errors.empty()) return "";
+    std::string text = errors.size() > 1 ? "estimated error, level by level:" : "estimated error:";
+    for (const double error : errors) text += fmt::format(" {:.2g}", error);
+    return text + "\n";
+}
+
+Json run_one(const Job& job, const Options& options, Plans& plans, ProgressBar& bar,
+             const Shared& shared) {
+    const std::uint64_t result_bytes = bytes_needed(plans.targets());
+    const std::uint64_t source_bytes = (shared.memory_limit - result_bytes) / kSourceWork;
+    const EnvironmentMap source =
+        load(job.input, options.input, shared, shared.memory_limit - source_bytes).map;
+    check_memory(kSourceWork * bytes_held(source) + result_bytes, job.output, shared);
+    Prefiltered result = options.reference
+                             ? reference_levels(source, plans.targets(), bar)
+                             : plans.plan_for(source)(source, bar.stage("Prefiltering"));
+    const EnvironmentMap map = join_levels(std::move(result.maps));
+    const WriteReport written = write_map(job.output, map, options.write);
+    bar.hide();
+    tell_clipped(job.output, written, shared);
+    if (!shared.json && !shared.quiet)
+        print(written_text(job.output, map, written) + error_text(result.errors));
+    Json json = to_json(job.output, map, written);
+    if (!options.reference) json["estimated_errors"] = result.errors;
+    return json;
 }
 
 int run(const Options& options, const Shared& shared) {
-    check_target(options.output, options.write);
-    const auto targets = targets_of(options);
-    check_memory(
-        bytes_needed(options.projection, targets.front().size, targets.size() > 1),
-        fmt::format("projection {} at size {}", name(options.projection), targets.front().size),
-        shared);
-    const LoadedMap loaded = load(options.input, shared);
-    EnvironmentMap result;
-    {
-        ProgressBar bar(shared);
-        result = join_levels(options.reference
-                                 ? reference_levels(loaded.map, targets, bar)
-                                 : prefilter(loaded.map, targets, bar.stage("Prefiltering")));
-    }
-    print_written(options.output, result, write_map(options.output, result, options.write), shared);
-    return 0;
+    const Batch batch = batch_of(options);
+    Plans plans(targets_of(options, batch), prefilter_options(options));
+    check_memory(bytes_needed(plans.targets()), "the result", shared);
+    return run_batch(batch, shared, [&](const Job& job, ProgressBar& bar) {
+        return run_one(job, options, plans, bar, shared);
+    });
 }
 
 }  // namespace
@@ -85,9 +139,11 @@ Command prefilter_command(Shared& shared) {
     auto options = std::make_shared<Options>();
     Command command{.name = "prefilter",
                     .summary = "Blur an environment by a lobe, or by one lobe per level."};
-    add_input_argument(command, options->input);
+    add_inputs_argument(command, options->sources);
     command.options = {
-        {"-o,--output", "FILE", output_help(), text(options->output), file_choices(), true},
+        {"-o,--output", "FILE", output_help() + "; or a folder, its name ends in a slash",
+         text(options->output), file_choices(), true},
+        {"--ending", ".EXT", "of the results' names in a folder [.ktx2]", text(options->ending)},
         {"--lobe", "LOBE",
          "mirror, diffuse, phong:N, blinn-phong:N, ggx:ROUGHNESS, charlie:ROUGHNESS or table:FILE "
          "(lines of degrees and weight); ggx, phong or charlie alone is a whole chain, and a list "
@@ -100,6 +156,7 @@ Command prefilter_command(Shared& shared) {
          parsed(options->projection, parse_projection), projection_choices()},
         {"--size", "N", "edge of a face at level 0 [256; diffuse 64; an equirect 4 times that]",
          whole_number(options->size, 1, kLargestSize)},
+        tolerance_option(options->tolerance),
         {"--reference", "", "sum over every source texel in double precision: the truth, slowly",
          flag(options->reference)}};
     add_input_options(command, options->input);
@@ -108,10 +165,14 @@ Command prefilter_command(Shared& shared) {
     command.notes = {
         "Level i of a chain has half the size of level i - 1. A lobe is about the "
         "reflection vector, diffuse about the normal; diffuse is irradiance, not "
-        "divided by pi."};
+        "divided by pi.",
+        kBatchNote,
+        "The estimated error is of each level by itself, rms over rms; 0 where it is the source, "
+        "resampled. See docs/theory/spectral-prefiltering.md."};
     command.examples = {
         "mirrorball prefilter studio.hdr -o diffuse.ktx2 --lobe diffuse",
         "mirrorball prefilter studio.hdr -o specular.ktx2 --lobe ggx --mapping gltf",
+        "mirrorball prefilter skies/*.hdr -o specular/ --lobe ggx --tolerance 1e-3",
         "mirrorball prefilter studio.hdr -o shiny.exr --lobe phong:100 --to equirect"};
     command.run = [options, &shared] { return run(*options, shared); };
     return command;

@@ -43,18 +43,31 @@ std::string bar(double done) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(const Shared& shared)
-    : enabled_(!shared.quiet && isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(const Shared& shared, int part_count)
+    : enabled_(!shared.quiet && isatty(STDERR_FILENO) == 1),
+      part_count_(part_count) {}
 
 ProgressBar::~ProgressBar() {
+    hide();
+}
+
+void ProgressBar::hide() {
     if (shown_) fmt::print(stderr, "\r\x1b[K");
+    shown_ = false;
+}
+
+void ProgressBar::begin_part(int index) {
+    hide();
+    part_ = index;
+    before_ = static_cast<double>(index) / part_count_;
+    share_ = 0;
 }
 
 Progress ProgressBar::stage(const std::string& label, double share) {
     stop_if_interrupted();
     before_ = std::min(1.0, before_ + share_);
-    share_ = share;
-    label_ = label;
+    share_ = share / part_count_;
+    label_ = part_count_ > 1 ? fmt::format("{}/{} {}", part_ + 1, part_count_, label) : label;
     return [this](double fraction) {
         if (enabled_) show(std::min(1.0, before_ + share_ * fraction));
         return !interrupted();

@@ -12,9 +12,10 @@ namespace mirrorball::cli {
 struct Shared;
 
 /// Work in stages. Each stage has a share of the whole, so that the bar runs from 0 to 1 once.
+/// Where there are several parts alike, the stages' shares are of each part.
 class ProgressBar {
   public:
-    explicit ProgressBar(const Shared& shared);
+    explicit ProgressBar(const Shared& shared, int part_count = 1);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
@@ -23,6 +24,11 @@ class ProgressBar {
     /// Ctrl-C.
     [[nodiscard]] Progress stage(const std::string& label, double share = 1);
 
+    /// The stages of part `index` follow, however far the one before came.
+    void begin_part(int index);
+    /// Takes the bar off the terminal; before anything else is printed.
+    void hide();
+
   private:
     using Clock = std::chrono::steady_clock;
 
@@ -30,6 +36,7 @@ class ProgressBar {
 
     bool enabled_;
     bool shown_ = false;
+    int part_count_, part_ = 0;
     std::mutex mutex_;
     std::string label_;
     double before_ = 0, share_ = 0;  // of this stage in the whole

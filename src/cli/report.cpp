@@ -197,7 +197,9 @@ std::string level_facts(const LevelFacts& facts) {
                                              facts.statistics.minimum.z})),
                             amount(largest(facts.statistics.maximum)))) +
            fact("Flux off by", percent(flux_error(facts))) +
-           fact("Seam ratio", fmt::format("{:.2f}", facts.seam_ratio)) + "</dl>";
+           fact("Seam ratio", fmt::format("{:.2f}", facts.seam_ratio)) +
+           (facts.estimated_error ? fact("Estimated error", amount(*facts.estimated_error)) : "") +
+           "</dl>";
 }
 
 std::string level_card(const LevelFacts& facts, const std::string& stem) {
@@ -290,12 +292,13 @@ std::string source_section(const Bake& bake) {
     const LoadedMap& source = bake.source;
     std::string html = fmt::format(
         "<section>\n<h2>Source</h2>\n<div class=\"card\" style=\"padding:6px 16px 14px\">"
-        "<dl class=\"facts\">{}{}{}{}{}{}</dl></div>\n",
+        "<dl class=\"facts\">{}{}{}{}{}{}{}</dl></div>\n",
         fact("Input", "<code>" + escaped(bake.options.input.source) + "</code>"),
         fact("Format", escaped(source.format) + ", " + std::string(name(source.stored))),
         fact("Layout", shape_text(source.map)),
         fact("Axes", "<code>" + to_string(source.map.axes) + "</code>"),
         fact("Level mapping", escaped(bake.options.mapping)),
+        fact("Tolerance", amount(bake.options.prefilter.tolerance)),
         fact("Exposure of the pictures", amount(bake.exposure)));
     for (const std::string& note : source.notes) {
         html += fmt::format("<p style=\"margin-top:12px\">Note: {}</p>\n", escaped(note));
@@ -330,7 +333,8 @@ std::string report_html(const Bake& bake) {
     return html +
            "<footer>Flux is the integral of radiance over the sphere. The seam ratio is the step "
            "between texels across a cube's edges over the step beside them: 1 means that no edge "
-           "shows. Made by mirrorball " MIRRORBALL_VERSION
+           "shows. The estimated error is that of prefiltering, rms over the level's rms; 0 is the "
+           "source, resampled. Made by mirrorball " MIRRORBALL_VERSION
            ".</footer>\n</main>\n</body>\n</html>\n";
 }
 

@@ -30,7 +30,7 @@ std::string output_help() {
     return "the result:" + endings + "; %s in the name stands for the face";
 }
 
-void check_target(const std::string& target, const MapWriteOptions& options) {
+void check_format(const std::string& target, const MapWriteOptions& options) {
     const detail::Codec& codec = detail::codec_for_name(target);
     const auto& known = codec.texel_formats;
     if (options.format != TexelFormat::automatic &&
@@ -41,6 +41,10 @@ void check_target(const std::string& target, const MapWriteOptions& options) {
                     fmt::format("--format: {} does not hold {}; it holds {}", codec.name,
                                 name(options.format), fmt::join(names, ", ")));
     }
+}
+
+void check_target(const std::string& target, const MapWriteOptions& options) {
+    check_format(target, options);
     const auto folder = std::filesystem::path(target).parent_path();
     std::error_code ignored;
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {

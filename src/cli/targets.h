@@ -14,6 +14,8 @@ void add_write_options(Command& command, MapWriteOptions& options);
 /// Help of -o: the endings that maps can be written to.
 [[nodiscard]] std::string output_help();
 
+/// \throws Error(Errc::usage) for an ending or a texel format that there is not
+void check_format(const std::string& target, const MapWriteOptions& options);
 /// Finds out what would fail at the end of long work: an ending or a texel format that there is
 /// not, a folder that is not there. \throws Error(Errc::usage), Error(Errc::cannot_write)
 void check_target(const std::string& target, const MapWriteOptions& options);

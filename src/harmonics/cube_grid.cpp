@@ -160,50 +160,42 @@ HWY_INLINE TexelVec clamped(TexelVec value, const Range& range) {
 
 // Sides --------------------------------------------------------------------------------------
 
-// Where the taps of (u, v) are: the right half mirrors the left one.
-HWY_INLINE std::size_t mirrored(int u, int v, int size, int half) {
-    return static_cast<std::size_t>(v) * half + std::min(u, size - 1 - u);
-}
-
 void make_side(const Block& block, int size, const TapList& rings, const float* columns,
-               std::size_t stride, const Range& range, float* to, std::ptrdiff_t along_u,
-               std::ptrdiff_t along_v) {
-    const int half = (size + 1) / 2;
+               const Range& range, float* to, std::ptrdiff_t along_u, std::ptrdiff_t along_v) {
     for (int v = block.v0; v < block.v1; ++v) {
         for (int u = block.u0; u < block.u1; ++u) {
-            const std::size_t at = mirrored(u, v, size, half);
-            const float* const from = columns + rings.first[at] * stride + 4 * u;
-            const TexelVec value = weighted(from, static_cast<std::ptrdiff_t>(stride),
-                                            rings.weights.data() + at * kTapCount);
+            const std::size_t at = side_tap(std::min(u, size - 1 - u), v, size);
+            const float* const from = columns + rings.first[at] * kSideStride + 4 * (u - block.u0);
+            const TexelVec value =
+                weighted(from, kSideStride, rings.weights.data() + at * kTapCount);
             store_rgb(clamped(value, range), to + u * along_u + v * along_v);
         }
     }
 }
 
 void spread_side(const Block& block, int size, const TapList& rings, const float* solid_angles,
-                 const float* from, std::ptrdiff_t along_u, std::ptrdiff_t along_v, float* columns,
-                 std::size_t stride) {
+                 const float* from, std::ptrdiff_t along_u, std::ptrdiff_t along_v,
+                 float* columns) {
     const Texel d;
     const int half = (size + 1) / 2;
     for (int v = block.v0; v < block.v1; ++v) {
         const std::size_t from_middle = std::max(v, size - 1 - v) - size / 2;
         const float* const row = solid_angles + from_middle * half;
         for (int u = block.u0; u < block.u1; ++u) {
-            const std::size_t at = mirrored(u, v, size, half);
+            const std::size_t at = side_tap(std::min(u, size - 1 - u), v, size);
             const float solid_angle = row[std::max(u, size - 1 - u) - size / 2];
             const TexelVec value =
                 hn::Mul(hn::LoadU(d, from + u * along_u + v * along_v), hn::Set(d, solid_angle));
-            add_weighted(value, columns + rings.first[at] * stride + 4 * u,
-                         static_cast<std::ptrdiff_t>(stride),
-                         rings.weights.data() + at * kTapCount);
+            add_weighted(value, columns + rings.first[at] * kSideStride + 4 * (u - block.u0),
+                         kSideStride, rings.weights.data() + at * kTapCount);
         }
     }
 }
 
 // Interpolates rings in the lanes of a group along psi, to a column of texels on each side.
-// `north` and `south` are the group's first ring and its mate, on column 0 of the sides.
+// `offsets` are those of the columns of texels, from the group's first ring and from its mate.
 void scatter_sides(const float* const* planes, int column_count, int size, const TapList& taps,
-                   float* north, float* south, std::ptrdiff_t stride) {
+                   const std::size_t* offsets, float* north, float* south) {
     const Lanes d;
     HWY_ALIGN float lanes[6][16];
     for (int side = 0; side < 4; ++side) {
@@ -217,25 +209,25 @@ void scatter_sides(const float* const* planes, int column_count, int size, const
                 hn::Store(sum.re, d, lanes[c]);
                 hn::Store(sum.im, d, lanes[3 + c]);
             }
-            const std::ptrdiff_t at = 4 * (std::ptrdiff_t{side} * size + u);
-            store_lanes(lanes[0], lanes[1], lanes[2], north + at, stride);
-            store_lanes(lanes[3], lanes[4], lanes[5], south + at, -stride);
+            const std::size_t at = offsets[side * size + u];
+            store_lanes(lanes[0], lanes[1], lanes[2], north + at, kSideStride);
+            store_lanes(lanes[3], lanes[4], lanes[5], south + at, -kSideStride);
         }
     }
 }
 
 // Adds to planes.
 void gather_sides(float* const* planes, int column_count, int size, const TapList& taps,
-                  const float* north, const float* south, std::ptrdiff_t stride) {
+                  const std::size_t* offsets, const float* north, const float* south) {
     const Lanes d;
     HWY_ALIGN float lanes[6][16];
     for (int u = 0; u < size; ++u) {
         const float* const w = taps.weights.data() + static_cast<std::size_t>(u) * kTapCount;
         for (int side = 0; side < 4; ++side) {
-            const std::ptrdiff_t at = 4 * (std::ptrdiff_t{side} * size + u);
+            const std::size_t at = offsets[side * size + u];
             const int first = taps.first[u] + side * (column_count / 4) + column_count;
-            load_lanes(north + at, stride, lanes[0], lanes[1], lanes[2]);
-            load_lanes(south + at, -stride, lanes[3], lanes[4], lanes[5]);
+            load_lanes(north + at, kSideStride, lanes[0], lanes[1], lanes[2]);
+            load_lanes(south + at, -kSideStride, lanes[3], lanes[4], lanes[5]);
             for (int c = 0; c < 3; ++c) {
                 const Complexes value{hn::Load(d, lanes[c]), hn::Load(d, lanes[3 + c])};
                 for (int i = 0; i < kTapCount; ++i) {
@@ -359,9 +351,7 @@ HWY_EXPORT(make_cap);
 HWY_EXPORT(spread_cap);
 
 constexpr int kBeyondPole = 4;  // rings
-// Texels of a block of a side: its columns of rings stay in the cache while its rows are made.
-constexpr int kBlock = 32;
-constexpr int kLines = 8;  // across a quadrant, to a task
+constexpr int kLines = 8;       // across a quadrant, to a task
 
 Range range_of(const Vec3f& lowest, const Vec3f& highest) {
     Range range{};
@@ -431,16 +421,17 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
     const int least_side_ring = std::max(0, ring_count_ / 4 - 5);
     first_side_ring_ = least_side_ring / lane_count_ * lane_count_;
     side_ring_count_ = ring_count_ - 2 * first_side_ring_;
-    side_stride_ = padded(4 * size);
+    side_offsets_.resize(4 * static_cast<std::size_t>(size));
+    for (int i = 0; i < 4 * size; ++i) side_offsets_[i] = side_offset(i / size, i % size);
     side_columns_ = TapList(size);
     for (int u = 0; u < size; ++u)
         side_columns_.set(u, std::atan(coordinate(u)) * columns_per_radian, along_rings);
-    side_rings_ = TapList(static_cast<std::size_t>(size) * half_);
+    side_rings_ = TapList(side_tap(half_ - 1, size - 1, size) + 1);
     parallel_for(size, [&](std::int64_t v) {
         for (int u = 0; u < half_; ++u) {
             const double a = coordinate(u), y = -coordinate(static_cast<int>(v));
             const double theta = std::atan2(std::sqrt(1 + a * a), y);
-            side_rings_.set(static_cast<std::size_t>(v) * half_ + u,
+            side_rings_.set(side_tap(u, static_cast<int>(v), size),
                             theta * rings_per_radian - 0.5 - first_side_ring_, across_rings);
         }
     });
@@ -488,8 +479,14 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
 }
 
 CubeGrid::Buffers CubeGrid::make_buffers() const {
-    return {ScratchArray(scratch_, side_stride_ * side_ring_count_),
+    return {ScratchArray(scratch_, 4 * static_cast<std::size_t>(blocks(size_)) * kSideStride *
+                                       side_ring_count_),
             ScratchArray(scratch_, 2 * cap_stride_ * cap_ring_count_)};
+}
+
+std::size_t CubeGrid::side_offset(int side, int u) const {
+    const std::size_t block = static_cast<std::size_t>(side) * blocks(size_) + u / kBlock;
+    return block * side_ring_count_ * kSideStride + 4 * static_cast<std::size_t>(u % kBlock);
 }
 
 void CubeGrid::scatter_group(int group, const std::array<GroupValues, 3>& planes,
@@ -506,9 +503,8 @@ void CubeGrid::scatter_group(int group, const std::array<GroupValues, 3>& planes
         float* const rings = buffers.sides.data();
         const int north = ring - first_side_ring_;
         HWY_DYNAMIC_DISPATCH(scatter_sides)
-        (from, column_count_, size_, side_columns_, rings + north * side_stride_,
-         rings + (side_ring_count_ - 1 - north) * side_stride_,
-         static_cast<std::ptrdiff_t>(side_stride_));
+        (from, column_count_, size_, side_columns_, side_offsets_.data(),
+         rings + north * kSideStride, rings + (side_ring_count_ - 1 - north) * kSideStride);
     }
 }
 
@@ -528,9 +524,8 @@ void CubeGrid::gather_group(int group, const Buffers& buffers,
         const float* const rings = buffers.sides.data();
         const int north = ring - first_side_ring_;
         HWY_DYNAMIC_DISPATCH(gather_sides)
-        (to, column_count_, size_, side_columns_, rings + north * side_stride_,
-         rings + (side_ring_count_ - 1 - north) * side_stride_,
-         static_cast<std::ptrdiff_t>(side_stride_));
+        (to, column_count_, size_, side_columns_, side_offsets_.data(), rings + north * kSideStride,
+         rings + (side_ring_count_ - 1 - north) * kSideStride);
     }
 }
 
@@ -571,8 +566,7 @@ void CubeGrid::make_texels(Buffers& buffers, const CubePlacement& placement, con
             const Block texels{u, std::min(u + kBlock, size_), v, std::min(v + kBlock, size_)};
             const FacePlacement& face = placement[side];
             HWY_DYNAMIC_DISPATCH(make_side)
-            (texels, size_, side_rings_,
-             buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_, side_stride_, range,
+            (texels, size_, side_rings_, buffers.sides.data() + side_offset(side, u), range,
              faces[face.face].values().data() + face.origin, face.along_u, face.along_v);
             return;
         }
@@ -617,7 +611,7 @@ void CubeGrid::spread_texels(const std::vector<Image>& faces, const CubePlacemen
         HWY_DYNAMIC_DISPATCH(spread_side)
         ({u, std::min(u + kBlock, size_), 0, size_}, size_, side_rings_, solid_angles_.data(),
          faces[face.face].values().data() + face.origin, face.along_u, face.along_v,
-         buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_, side_stride_);
+         buffers.sides.data() + side_offset(side, u));
     });
     parallel_for(4, [&](std::int64_t task) {
         const FlushDenormals flush;

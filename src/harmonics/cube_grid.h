@@ -11,7 +11,7 @@
 // where columns cross that line, and those then to rings. Adding, unlike reading, waits for itself,
 // and 8 + 8 additions wait less than 64.
 //
-//     sides: [ring, those between the caps][column of texels 0 .. 4n][RGBx]
+//     sides: [side][block of columns of texels][ring, those between the caps][column][RGBx]
 //     caps:  [north, south][4 rings beyond the pole, rings from the pole on][grid column, and the
 //            first eight again][RGBx]
 #pragma once
@@ -48,10 +48,22 @@ struct Range {
     alignas(16) float highest[4];
 };
 
+/// Columns of texels of a side that lie together: a block's rings are on few pages, and stay in the
+/// cache while its texels are made.
+inline constexpr int kBlock = 32;
+/// Values from a ring of a block to the next: an odd number of cache lines, so that the eight rings
+/// of a texel do not fall on the same ones.
+inline constexpr std::ptrdiff_t kSideStride = 4 * kBlock + 16;
+
 /// A block of texels of one side, columns [u0, u1) and rows [v0, v1).
 struct Block {
     int u0, u1, v0, v1;
 };
+
+/// Where the taps of texel (u, v) of a side's left half are: those of a block together.
+[[nodiscard]] inline std::size_t side_tap(int u, int v, int size) {
+    return (static_cast<std::size_t>(u / kBlock) * size + v) * kBlock + u % kBlock;
+}
 
 /// What a quadrant of a cap reads and writes.
 struct Quadrant {
@@ -94,6 +106,8 @@ class CubeGrid {
     };
     [[nodiscard]] QuadrantPlacement place_quadrant(int cap, int quadrant,
                                                    const CubePlacement& placement) const;
+    // Where column u of texels of a side is on the first ring.
+    [[nodiscard]] std::size_t side_offset(int side, int u) const;
     [[nodiscard]] int first_group() const { return first_side_ring_ / lane_count_; }
     [[nodiscard]] double coordinate(int i) const { return (2.0 * i + 1 - size_) / size_; }
 
@@ -102,14 +116,15 @@ class CubeGrid {
     int ring_count_, column_count_, lane_count_, group_count_;
     int first_side_ring_, cap_group_count_;
     int side_ring_count_, cap_ring_count_;
-    std::size_t side_stride_, cap_stride_;  // values from a ring to the next
-    TapList side_columns_;                  // [u], grid columns from the side's middle
-    TapList side_rings_;                    // [v][u of the left half], from the first side ring
-    TapList cap_rings_;                     // [a][b], 0 <= b <= a, from the first ring
-    TapList cap_columns_;                   // the same, columns off the quadrant's axis
-    int reach_;                             // columns to each side of a quadrant's axis
-    TapList line_rings_;                    // [a][column off the axis], where it crosses line a
-    std::vector<float> solid_angles_;       // [|v|][|u|], from the middle out
+    std::size_t cap_stride_;                 // values from a ring to the next
+    std::vector<std::size_t> side_offsets_;  // [side][u]
+    TapList side_columns_;                   // [u], grid columns from the side's middle
+    TapList side_rings_;                     // at side_tap(u, v), from the first side ring
+    TapList cap_rings_;                      // [a][b], 0 <= b <= a, from the first ring
+    TapList cap_columns_;                    // the same, columns off the quadrant's axis
+    int reach_;                              // columns to each side of a quadrant's axis
+    TapList line_rings_;                     // [a][column off the axis], where it crosses line a
+    std::vector<float> solid_angles_;        // [|v|][|u|], from the middle out
 };
 
 }  // namespace mirrorball::detail

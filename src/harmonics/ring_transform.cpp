@@ -405,12 +405,12 @@ void RingTransform::to_spectra(int group, std::array<GroupValues, 3>& planes, Gr
     }
 }
 
-LegendreOrder RingTransform::legendre_order(int m) const {
+LegendreOrder RingTransform::legendre_order(int m, int band_count) const {
     const std::size_t groups = group_count_, at = groups * m;
     return {table_->steps(m),
             table_->scales(m),
-            LegendreTable::step_count(m, band_count_),
-            band_count_ - m,
+            LegendreTable::step_count(m, band_count),
+            band_count - m,
             group_count_,
             starts_.data() + at,
             seeds_.data() + at * 2 * lane_count_,
@@ -422,7 +422,7 @@ void RingTransform::analyse(const RingSpectra& spectra, Harmonics& harmonics) co
     parallel_for(band_count_, [&](std::int64_t i) {
         const FlushDenormals flush;
         const int m = static_cast<int>(i);
-        const LegendreOrder order = legendre_order(m);
+        const LegendreOrder order = legendre_order(m, band_count_);
         AlignedArray<double> state(static_cast<std::size_t>(group_count_) * 2 * lane_count_);
         ScratchArray functions(scratch_, static_cast<std::size_t>(group_count_) * 2 * lane_count_);
         // in steps of two, and each sum is stored with a vector's rest
@@ -436,10 +436,11 @@ void RingTransform::analyse(const RingSpectra& spectra, Harmonics& harmonics) co
 
 void RingTransform::synthesise(const Harmonics& harmonics, std::span<const float> zonal,
                                RingSpectra& spectra) const {
-    parallel_for(band_count_, [&](std::int64_t i) {
+    const int band_count = static_cast<int>(zonal.size());
+    parallel_for(band_count, [&](std::int64_t i) {
         const FlushDenormals flush;
         const int m = static_cast<int>(i);
-        const LegendreOrder order = legendre_order(m);
+        const LegendreOrder order = legendre_order(m, band_count);
         const std::span<const float> coefficients = harmonics.order(m);
         // filtered, with two degrees of zeros at the end; each sign of m > 0 has half of the light
         const std::size_t steps = order.step_count;
@@ -465,7 +466,7 @@ void RingTransform::synthesise(const Harmonics& harmonics, std::span<const float
     });
 }
 
-void RingTransform::from_spectra(int group, const RingSpectra& spectra,
+void RingTransform::from_spectra(int group, const RingSpectra& spectra, int order_count,
                                  std::span<const float> ring_weights,
                                  std::array<GroupValues, 3>& planes, GroupValues& scratch) const {
     const std::size_t first = static_cast<std::size_t>(group) * lane_count_;
@@ -473,7 +474,7 @@ void RingTransform::from_spectra(int group, const RingSpectra& spectra,
     const float* const weights = ring_weights.empty() ? nullptr : ring_weights.data() + first;
     for (int channel = 0; channel < 3; ++channel) {
         const float* const result = HWY_DYNAMIC_DISPATCH(from_spectra)(
-            fourier_, weights, channel, band_count_, from, planes[channel].data(), scratch.data());
+            fourier_, weights, channel, order_count, from, planes[channel].data(), scratch.data());
         if (result == scratch.data()) std::swap(planes[channel], scratch);
     }
 }

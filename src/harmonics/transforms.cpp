@@ -16,7 +16,7 @@ constexpr double kOversampling = 1.5, kMoreOversampling = 2.2, kMostOversampling
 constexpr int kFewBands = 160;
 constexpr double kMostAtEdge = 1e-5;  // of the power, in the last quarter of the bands
 
-double oversampling(std::span<const double> power) {
+double oversampling_for(std::span<const double> power) {
     double all = 0, edge = 0;
     for (std::size_t l = 0; l < power.size(); ++l) {
         const double here = (2 * static_cast<double>(l) + 1) * power[l];
@@ -28,8 +28,8 @@ double oversampling(std::span<const double> power) {
 }
 
 RingTransform grid_transform(std::shared_ptr<const LegendreTable> table, int band_count,
-                             std::span<const double> power, std::shared_ptr<ScratchPool> scratch) {
-    const double values = oversampling(power) * band_count;
+                             double oversampling, std::shared_ptr<ScratchPool> scratch) {
+    const double values = oversampling * band_count;
     const int whole = 2 * ring_lane_count();
     const int ring_count = (std::max(32, static_cast<int>(std::ceil(values))) + whole - 1) / whole;
     const int column_count = good_fourier_length(std::max(64, static_cast<int>(2 * values)));
@@ -70,7 +70,7 @@ EnvironmentMap empty_map(const MapShape& shape) {
 
 AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
                            int band_count, std::span<const double> power,
-                           std::shared_ptr<ScratchPool> scratch)
+                           std::shared_ptr<ScratchPool> scratch, std::optional<double> oversampling)
     : shape_(shape),
       band_count_(band_count) {
     if (is_ring_grid(shape)) {
@@ -86,7 +86,9 @@ AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const Legendre
         }
         return;
     }
-    rings_.emplace(grid_transform(std::move(table), band_count, power, std::move(scratch)));
+    rings_.emplace(grid_transform(std::move(table), band_count,
+                                  oversampling.value_or(oversampling_for(power)),
+                                  std::move(scratch)));
     ring_weights_.assign(static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(),
                          1.0f);
     if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
@@ -124,9 +126,11 @@ void AnalysisPlan::run(const std::vector<Image>& faces, Harmonics& harmonics) co
 
 SynthesisPlan::SynthesisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
                              int band_count, std::span<const double> power,
-                             std::shared_ptr<ScratchPool> scratch)
+                             std::shared_ptr<ScratchPool> scratch,
+                             std::optional<double> oversampling)
     : shape_(shape),
-      rings_(grid_transform(std::move(table), band_count, power, std::move(scratch))) {
+      rings_(grid_transform(std::move(table), band_count,
+                            oversampling.value_or(oversampling_for(power)), std::move(scratch))) {
     if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
         cube_.emplace(shape.size, *rings_, power);
     else
@@ -163,7 +167,8 @@ void SynthesisPlan::run(const Harmonics& harmonics, std::span<const float> zonal
         const int group = static_cast<int>(i);
         std::array<GroupValues, 3> planes = make_planes(*rings_);
         GroupValues scratch = rings_->make_values();
-        rings_->from_spectra(group, spectra, ring_weights, planes, scratch);
+        rings_->from_spectra(group, spectra, static_cast<int>(zonal.size()), ring_weights, planes,
+                             scratch);
         if (cube_)
             cube_->scatter_group(group, planes, buffers);
         else

@@ -2,16 +2,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
-
-#include <mirrorball/harmonics.h>
 
 #include "prefilter/band_split.h"
 
 namespace mirrorball::detail {
-
-/// Sums over orders and channels of squared coefficients, per degree.
-[[nodiscard]] std::vector<double> power_spectrum(const Harmonics& harmonics);
 
 struct ErrorTerms {
     std::span<const double> lambda;  ///< the whole lobe's, for as many degrees as are known
