@@ -13,8 +13,11 @@
 #pragma once
 
 #include <array>
+#include <string_view>
+#include <vector>
 
 #include <mirrorball/environment_map.h>
+#include <mirrorball/harmonics.h>
 
 namespace mirrorball {
 
@@ -40,5 +43,35 @@ struct NineHarmonics {
 
 /// The sum of coefficient times basis function. \pre |direction| == 1
 [[nodiscard]] Vec3d evaluate(const NineHarmonics& harmonics, const Vec3d& direction);
+
+/// The first three bands of harmonics about +Y (harmonics.h) in this basis, about +Z; bands that
+/// are not there are zero.
+[[nodiscard]] NineHarmonics nine_harmonics(const Harmonics& harmonics);
+
+/// What nine numbers per channel stand for in a program. With A_l as above and Y_lm = k_lm p_lm,
+/// p = 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2 in our order:
+///
+///     radiance      L_lm                       summed with Y_lm: the light itself, blurred
+///     irradiance    A_l L_lm                   summed with Y_lm: E(n), W m^-2
+///     outgoing      A_l L_lm / pi              summed with Y_lm: what a white matte surface shows
+///     polynomial    A_l L_lm k_lm / pi         the same, summed with p_lm: no constants in a
+///     shader filament      polynomial                 IndirectLight::Builder::irradiance()
+///     three.js      radiance                   LightProbe.sh; its shaders multiply by A_l
+///     unity         polynomial, z negated      SphericalHarmonicsL2; its world is left-handed
+///
+/// Established from Filament's include/filament/IndirectLight.h (its table has the basis functions'
+/// signs twice, in L_lm and in the factor, so that they cancel) and from three.js'
+/// src/math/SphericalHarmonics3.js, getIrradianceAt(); Unity's is as its users describe it
+/// (SHTools), with unity_SHA*, SHB* and SHC packed from it by the shaders' own rule.
+enum class HarmonicScale { radiance, irradiance, outgoing, polynomial, filament, three_js, unity };
+
+/// "radiance", ..., "three.js", "unity"
+[[nodiscard]] std::string_view name(HarmonicScale scale);
+[[nodiscard]] std::vector<HarmonicScale> harmonic_scales();
+/// \throws Error(Errc::usage) naming the scales there are
+[[nodiscard]] HarmonicScale parse_harmonic_scale(std::string_view text);
+
+/// Radiance's coefficients as the scale has them.
+[[nodiscard]] NineHarmonics scaled(const NineHarmonics& radiance, HarmonicScale scale);
 
 }  // namespace mirrorball

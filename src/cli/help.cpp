@@ -83,7 +83,7 @@ std::string help_text(const std::vector<Command>& commands) {
         "Environment maps: read, convert, prefilter, show and prove them.\n\n"
         "usage: mirrorball VERB [options]\n\n";
     for (const Command& command : commands) {
-        text += fmt::format("  {:<12}{}\n", command.name, command.summary);
+        text += fmt::format("  {:<15}{}\n", command.name, command.summary);
     }
     return text +
            "\n  mirrorball VERB --help    options and examples of a verb\n"

@@ -13,6 +13,7 @@ namespace mirrorball::cli {
 [[nodiscard]] Command convert_command(Shared& shared);
 [[nodiscard]] Command prefilter_command(Shared& shared);
 [[nodiscard]] Command bake_command(Shared& shared);
+[[nodiscard]] Command irradiance_sh_command(Shared& shared);
 [[nodiscard]] Command compare_command(Shared& shared);
 [[nodiscard]] Command sky_command(Shared& shared);
 /// The script for the shell, from the table of all commands.

@@ -15,7 +15,8 @@ class AlignedArray {
   public:
     AlignedArray() = default;
     explicit AlignedArray(std::size_t count)
-        : values_(hwy::AllocateAligned<T>(count > 0 ? count : 1)), count_(count) {
+        : values_(hwy::AllocateAligned<T>(count > 0 ? count : 1)),
+          count_(count) {
         if (!values_) throw std::bad_alloc();
     }
     AlignedArray(std::size_t count, T value) : AlignedArray(count) {

@@ -13,8 +13,12 @@ namespace mirrorball::detail {
 class FlushDenormals {
   public:
 #if defined(__SSE2__)
-    FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | kFlushToZero | kZeroInputs); }
-    ~FlushDenormals() { _mm_setcsr(before_); }
+    FlushDenormals() : before_(_mm_getcsr()) {
+        _mm_setcsr(before_ | kFlushToZero | kZeroInputs);
+    }
+    ~FlushDenormals() {
+        _mm_setcsr(before_);
+    }
 
   private:
     static constexpr unsigned kFlushToZero = 0x8000, kZeroInputs = 0x0040;

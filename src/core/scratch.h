@@ -39,7 +39,8 @@ class ScratchArray {
 };
 
 /// Arrays to borrow, undefined at first. What is given back is lent again: fresh memory costs a
-/// fault per page, which for transforms is as much as the work. Holds what was out at the same time.
+/// fault per page, which for transforms is as much as the work. Holds what was out at the same
+/// time.
 class ScratchPool {
   public:
     /// The smallest there is that is large enough, or a new one.
@@ -70,7 +71,9 @@ class ScratchPool {
 };
 
 inline ScratchArray::ScratchArray(std::shared_ptr<ScratchPool> pool, std::size_t count)
-    : pool_(std::move(pool)), array_(pool_->take(count)), count_(count) {}
+    : pool_(std::move(pool)),
+      array_(pool_->take(count)),
+      count_(count) {}
 
 inline ScratchArray::~ScratchArray() {
     if (pool_) pool_->give_back(std::move(array_));

@@ -54,26 +54,6 @@ class RowWeights {
         return folded_texels(all);
     }
 
-    /// The same backwards: adds a texel to eight rows of eight.
-    HWY_INLINE void add(TexelVec texel, float* HWY_RESTRICT values, std::ptrdiff_t row,
-                        const float* HWY_RESTRICT across) const {
-        const Wide d;
-        const std::size_t n = hn::Lanes(d);
-        HWY_ALIGN float rgbx[4];
-        hn::Store(texel, Texel(), rgbx);
-        const WideVec everywhere = hn::LoadDup128(d, rgbx);
-        WideVec shares[kVectorCount];
-        for (int i = 0; i < kVectorCount; ++i) shares[i] = hn::Mul(everywhere, weights_[i]);
-        HWY_UNROLL(8)
-        for (int k = 0; k < kTapCount; ++k) {
-            const WideVec w = hn::Set(d, across[k]);
-            for (int i = 0; i < kVectorCount; ++i) {
-                float* const to = values + k * row + i * n;
-                hn::StoreU(hn::MulAdd(shares[i], w, hn::LoadU(d, to)), d, to);
-            }
-        }
-    }
-
   private:
     // The i-th vector of weights, each in the lanes of one texel.
     static HWY_INLINE WideVec spread(const float* weights, int i, bool reversed) {
@@ -180,21 +160,14 @@ HWY_INLINE TexelVec clamped(TexelVec value, const Range& range) {
 
 // Sides --------------------------------------------------------------------------------------
 
-// Where the taps of (u, v) are: the right half mirrors the left one.
-HWY_INLINE std::size_t mirrored(int u, int v, int size, int half) {
-    return static_cast<std::size_t>(v) * half + std::min(u, size - 1 - u);
-}
-
 void make_side(const Block& block, int size, const TapList& rings, const float* columns,
-               std::size_t stride, const Range& range, float* to, std::ptrdiff_t along_u,
-               std::ptrdiff_t along_v) {
-    const int half = (size + 1) / 2;
+               const Range& range, float* to, std::ptrdiff_t along_u, std::ptrdiff_t along_v) {
     for (int v = block.v0; v < block.v1; ++v) {
         for (int u = block.u0; u < block.u1; ++u) {
-            const std::size_t at = mirrored(u, v, size, half);
-            const float* const from = columns + rings.first[at] * stride + 4 * u;
-            const TexelVec value = weighted(from, static_cast<std::ptrdiff_t>(stride),
-                                            rings.weights.data() + at * kTapCount);
+            const std::size_t at = side_tap(std::min(u, size - 1 - u), v, size);
+            const float* const from = columns + rings.first[at] * kSideStride + 4 * (u - block.u0);
+            const TexelVec value =
+                weighted(from, kSideStride, rings.weights.data() + at * kTapCount);
             store_rgb(clamped(value, range), to + u * along_u + v * along_v);
         }
     }
@@ -202,28 +175,27 @@ void make_side(const Block& block, int size, const TapList& rings, const float* 
 
 void spread_side(const Block& block, int size, const TapList& rings, const float* solid_angles,
                  const float* from, std::ptrdiff_t along_u, std::ptrdiff_t along_v,
-                 float* columns, std::size_t stride) {
+                 float* columns) {
     const Texel d;
     const int half = (size + 1) / 2;
     for (int v = block.v0; v < block.v1; ++v) {
         const std::size_t from_middle = std::max(v, size - 1 - v) - size / 2;
         const float* const row = solid_angles + from_middle * half;
         for (int u = block.u0; u < block.u1; ++u) {
-            const std::size_t at = mirrored(u, v, size, half);
+            const std::size_t at = side_tap(std::min(u, size - 1 - u), v, size);
             const float solid_angle = row[std::max(u, size - 1 - u) - size / 2];
-            const TexelVec value = hn::Mul(hn::LoadU(d, from + u * along_u + v * along_v),
-                                           hn::Set(d, solid_angle));
-            add_weighted(value, columns + rings.first[at] * stride + 4 * u,
-                         static_cast<std::ptrdiff_t>(stride),
-                         rings.weights.data() + at * kTapCount);
+            const TexelVec value =
+                hn::Mul(hn::LoadU(d, from + u * along_u + v * along_v), hn::Set(d, solid_angle));
+            add_weighted(value, columns + rings.first[at] * kSideStride + 4 * (u - block.u0),
+                         kSideStride, rings.weights.data() + at * kTapCount);
         }
     }
 }
 
 // Interpolates rings in the lanes of a group along psi, to a column of texels on each side.
-// `north` and `south` are the group's first ring and its mate, on column 0 of the sides.
+// `offsets` are those of the columns of texels, from the group's first ring and from its mate.
 void scatter_sides(const float* const* planes, int column_count, int size, const TapList& taps,
-                   float* north, float* south, std::ptrdiff_t stride) {
+                   const std::size_t* offsets, float* north, float* south) {
     const Lanes d;
     HWY_ALIGN float lanes[6][16];
     for (int side = 0; side < 4; ++side) {
@@ -237,25 +209,25 @@ void scatter_sides(const float* const* planes, int column_count, int size, const
                 hn::Store(sum.re, d, lanes[c]);
                 hn::Store(sum.im, d, lanes[3 + c]);
             }
-            const std::ptrdiff_t at = 4 * (std::ptrdiff_t{side} * size + u);
-            store_lanes(lanes[0], lanes[1], lanes[2], north + at, stride);
-            store_lanes(lanes[3], lanes[4], lanes[5], south + at, -stride);
+            const std::size_t at = offsets[side * size + u];
+            store_lanes(lanes[0], lanes[1], lanes[2], north + at, kSideStride);
+            store_lanes(lanes[3], lanes[4], lanes[5], south + at, -kSideStride);
         }
     }
 }
 
 // Adds to planes.
 void gather_sides(float* const* planes, int column_count, int size, const TapList& taps,
-                  const float* north, const float* south, std::ptrdiff_t stride) {
+                  const std::size_t* offsets, const float* north, const float* south) {
     const Lanes d;
     HWY_ALIGN float lanes[6][16];
     for (int u = 0; u < size; ++u) {
         const float* const w = taps.weights.data() + static_cast<std::size_t>(u) * kTapCount;
         for (int side = 0; side < 4; ++side) {
-            const std::ptrdiff_t at = 4 * (std::ptrdiff_t{side} * size + u);
+            const std::size_t at = offsets[side * size + u];
             const int first = taps.first[u] + side * (column_count / 4) + column_count;
-            load_lanes(north + at, stride, lanes[0], lanes[1], lanes[2]);
-            load_lanes(south + at, -stride, lanes[3], lanes[4], lanes[5]);
+            load_lanes(north + at, kSideStride, lanes[0], lanes[1], lanes[2]);
+            load_lanes(south + at, -kSideStride, lanes[3], lanes[4], lanes[5]);
             for (int c = 0; c < 3; ++c) {
                 const Complexes value{hn::Load(d, lanes[c]), hn::Load(d, lanes[3 + c])};
                 for (int i = 0; i < kTapCount; ++i) {
@@ -293,31 +265,17 @@ void gather_caps(float* const* planes, int column_count, const float* north, con
     }
 }
 
-// Calls f(a, b, negative) for the texels at distances a0 <= a < a1 along a quadrant's axis. Each
-// diagonal is one quadrant's, and so is the middle of a face with an odd number of texels. With
-// kStreams above 1, texels that follow each other are far apart and need not wait for each other's
-// sums.
-template <int kStreams, class F>
-HWY_INLINE void for_each_texel_of(const Quadrant& q, int a0, int a1, const F& f) {
+// Calls f(a, b, negative) for the texels at distance a along a quadrant's axis, b < 0 before b > 0.
+// Each diagonal is one quadrant's, and so is the middle of a face with an odd number of texels.
+template <class F>
+HWY_INLINE void for_each_texel_of_line(const Quadrant& q, int a, const F& f) {
     const bool odd = q.size % 2 == 1;
-    for (int a = a0; a < a1; ++a) {
-        if (a == 0 && odd) {
-            if (q.axis_column == 0) f(0, 0, false);
-            continue;
-        }
-        if constexpr (kStreams == 1) {
-            for (int b = a - 1; b >= (odd ? 1 : 0); --b) f(a, b, true);
-            for (int b = 0; b <= a; ++b) f(a, b, false);
-            continue;
-        }
-        const int stretch = (a + kStreams) / kStreams;
-        for (int i = 0; i < stretch; ++i) {
-            for (int b = i; b <= a; b += stretch) {
-                f(a, b, false);
-                if (b < a && !(b == 0 && odd)) f(a, b, true);
-            }
-        }
+    if (a == 0 && odd) {
+        if (q.axis_column == 0) f(0, 0, false);
+        return;
     }
+    for (int b = a - 1; b >= (odd ? 1 : 0); --b) f(a, b, true);
+    for (int b = 0; b <= a; ++b) f(a, b, false);
 }
 
 // Where the taps of texel (a, b) begin on the first ring of a cap.
@@ -333,7 +291,7 @@ HWY_INLINE std::ptrdiff_t first_tap(const Quadrant& q, std::size_t at, bool nega
 void make_cap(const Quadrant& q, int a0, int a1, const float* cap, const Range& range,
               float* middle, std::ptrdiff_t along, std::ptrdiff_t across,
               std::ptrdiff_t to_negative) {
-    for_each_texel_of<1>(q, a0, a1, [&](int a, int b, bool negative) HWY_ATTR {
+    const auto make_texel = [&](int a, int b, bool negative) HWY_ATTR {
         const std::size_t at = static_cast<std::size_t>(a) * q.half + b;
         const RowWeights weights(q.columns->weights.data() + at * kTapCount, negative);
         const TexelVec value =
@@ -341,23 +299,38 @@ void make_cap(const Quadrant& q, int a0, int a1, const float* cap, const Range& 
                         q.rings->weights.data() + at * kTapCount);
         float* const to = middle + a * along + (negative ? to_negative - b * across : b * across);
         store_rgb(clamped(value, range), to);
-    });
+    };
+    for (int a = a0; a < a1; ++a) for_each_texel_of_line(q, a, make_texel);
 }
 
-void spread_cap(const Quadrant& q, int a0, int a1, const float* solid_angles, const float* middle,
+// `line` has room for a value on every column that a line crosses.
+void spread_cap(const Quadrant& q, const float* solid_angles, const float* middle,
                 std::ptrdiff_t along, std::ptrdiff_t across, std::ptrdiff_t to_negative,
-                float* cap) {
+                float* line, float* cap) {
     const Texel d;
-    for_each_texel_of<4>(q, a0, a1, [&](int a, int b, bool negative) HWY_ATTR {
+    const std::size_t width = 2 * static_cast<std::size_t>(q.reach) + 1;
+    float* const centre = line + 4 * q.reach;
+    const auto add_texel = [&](int a, int b, bool negative) HWY_ATTR {
         const std::size_t at = static_cast<std::size_t>(a) * q.half + b;
-        const RowWeights weights(q.columns->weights.data() + at * kTapCount, negative);
         const float* const from =
             middle + a * along + (negative ? to_negative - b * across : b * across);
         const TexelVec value = hn::Mul(hn::LoadU(d, from), hn::Set(d, solid_angles[at]));
-        weights.add(value, cap + first_tap(q, at, negative),
-                    static_cast<std::ptrdiff_t>(q.stride),
-                    q.rings->weights.data() + at * kTapCount);
-    });
+        const std::ptrdiff_t first = 4 * std::ptrdiff_t{q.columns->first[at]};
+        add_weighted(value, centre + (negative ? -first : first), negative ? -4 : 4,
+                     q.columns->weights.data() + at * kTapCount);
+    };
+    for (int a = 0; a < q.half; ++a) {
+        std::memset(line, 0, width * 4 * sizeof(float));
+        for_each_texel_of_line(q, a, add_texel);
+        for (int c = -q.reach; c <= q.reach; ++c) {
+            const std::size_t at = static_cast<std::size_t>(a) * (q.reach + 1) + std::abs(c);
+            const int column = q.axis_column + (c < -q.axis_column ? c + q.column_count : c);
+            add_weighted(hn::Load(d, centre + 4 * c),
+                         cap + q.line_rings->first[at] * q.stride + 4 * column,
+                         static_cast<std::ptrdiff_t>(q.stride),
+                         q.line_rings->weights.data() + at * kTapCount);
+        }
+    }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -378,9 +351,7 @@ HWY_EXPORT(make_cap);
 HWY_EXPORT(spread_cap);
 
 constexpr int kBeyondPole = 4;  // rings
-// Texels of a block of a side: its columns of rings stay in the cache while its rows are made.
-constexpr int kBlock = 32;
-constexpr int kLines = 8;  // across a quadrant, to a task
+constexpr int kLines = 8;       // across a quadrant, to a task
 
 Range range_of(const Vec3f& lowest, const Vec3f& highest) {
     Range range{};
@@ -450,16 +421,17 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
     const int least_side_ring = std::max(0, ring_count_ / 4 - 5);
     first_side_ring_ = least_side_ring / lane_count_ * lane_count_;
     side_ring_count_ = ring_count_ - 2 * first_side_ring_;
-    side_stride_ = padded(4 * size);
+    side_offsets_.resize(4 * static_cast<std::size_t>(size));
+    for (int i = 0; i < 4 * size; ++i) side_offsets_[i] = side_offset(i / size, i % size);
     side_columns_ = TapList(size);
     for (int u = 0; u < size; ++u)
         side_columns_.set(u, std::atan(coordinate(u)) * columns_per_radian, along_rings);
-    side_rings_ = TapList(static_cast<std::size_t>(size) * half_);
+    side_rings_ = TapList(side_tap(half_ - 1, size - 1, size) + 1);
     parallel_for(size, [&](std::int64_t v) {
         for (int u = 0; u < half_; ++u) {
             const double a = coordinate(u), y = -coordinate(static_cast<int>(v));
             const double theta = std::atan2(std::sqrt(1 + a * a), y);
-            side_rings_.set(static_cast<std::size_t>(v) * half_ + u,
+            side_rings_.set(side_tap(u, static_cast<int>(v), size),
                             theta * rings_per_radian - 0.5 - first_side_ring_, across_rings);
         }
     });
@@ -477,7 +449,19 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
             cap_columns_.set(at, psi * columns_per_radian, along_rings);
         }
     });
-    const int last = *std::max_element(cap_rings_.first.begin(), cap_rings_.first.end()) +
+    reach_ = column_count_ / 8 + kTapCount;
+    const std::size_t reach = static_cast<std::size_t>(reach_) + 1;
+    line_rings_ = TapList(half_ * reach);
+    parallel_for(half_, [&](std::int64_t i) {
+        const double a = coordinate(size_ / 2 + static_cast<int>(i));
+        for (std::size_t c = 0; c < reach; ++c) {
+            const double psi = static_cast<double>(c) / columns_per_radian;
+            line_rings_.set(i * reach + c,
+                            std::atan(a / std::cos(psi)) * rings_per_radian - 0.5 + kBeyondPole,
+                            across_rings);
+        }
+    });
+    const int last = *std::max_element(line_rings_.first.begin(), line_rings_.first.end()) +
                      kTapCount - kBeyondPole;
     cap_group_count_ = std::min(group_count_, (last + lane_count_ - 1) / lane_count_);
     cap_ring_count_ = kBeyondPole + cap_group_count_ * lane_count_;
@@ -495,8 +479,14 @@ CubeGrid::CubeGrid(int size, const RingTransform& rings, std::span<const double>
 }
 
 CubeGrid::Buffers CubeGrid::make_buffers() const {
-    return {ScratchArray(scratch_, side_stride_ * side_ring_count_),
+    return {ScratchArray(scratch_, 4 * static_cast<std::size_t>(blocks(size_)) * kSideStride *
+                                       side_ring_count_),
             ScratchArray(scratch_, 2 * cap_stride_ * cap_ring_count_)};
+}
+
+std::size_t CubeGrid::side_offset(int side, int u) const {
+    const std::size_t block = static_cast<std::size_t>(side) * blocks(size_) + u / kBlock;
+    return block * side_ring_count_ * kSideStride + 4 * static_cast<std::size_t>(u % kBlock);
 }
 
 void CubeGrid::scatter_group(int group, const std::array<GroupValues, 3>& planes,
@@ -513,9 +503,8 @@ void CubeGrid::scatter_group(int group, const std::array<GroupValues, 3>& planes
         float* const rings = buffers.sides.data();
         const int north = ring - first_side_ring_;
         HWY_DYNAMIC_DISPATCH(scatter_sides)
-        (from, column_count_, size_, side_columns_, rings + north * side_stride_,
-         rings + (side_ring_count_ - 1 - north) * side_stride_,
-         static_cast<std::ptrdiff_t>(side_stride_));
+        (from, column_count_, size_, side_columns_, side_offsets_.data(),
+         rings + north * kSideStride, rings + (side_ring_count_ - 1 - north) * kSideStride);
     }
 }
 
@@ -535,9 +524,8 @@ void CubeGrid::gather_group(int group, const Buffers& buffers,
         const float* const rings = buffers.sides.data();
         const int north = ring - first_side_ring_;
         HWY_DYNAMIC_DISPATCH(gather_sides)
-        (to, column_count_, size_, side_columns_, rings + north * side_stride_,
-         rings + (side_ring_count_ - 1 - north) * side_stride_,
-         static_cast<std::ptrdiff_t>(side_stride_));
+        (to, column_count_, size_, side_columns_, side_offsets_.data(), rings + north * kSideStride,
+         rings + (side_ring_count_ - 1 - north) * kSideStride);
     }
 }
 
@@ -550,8 +538,7 @@ CubeGrid::QuadrantPlacement CubeGrid::place_quadrant(int cap, int quadrant,
     const bool across_up = quadrant == 0 || quadrant == 3;
     const std::ptrdiff_t along = along_is_v ? face.along_v : face.along_u;
     const std::ptrdiff_t across = along_is_v ? face.along_u : face.along_v;
-    return {face.face,
-            face.origin + first(along_up) * along + first(across_up) * across,
+    return {face.face, face.origin + first(along_up) * along + first(across_up) * across,
             along_up ? along : -along, across_up ? across : -across};
 }
 
@@ -579,17 +566,16 @@ void CubeGrid::make_texels(Buffers& buffers, const CubePlacement& placement, con
             const Block texels{u, std::min(u + kBlock, size_), v, std::min(v + kBlock, size_)};
             const FacePlacement& face = placement[side];
             HWY_DYNAMIC_DISPATCH(make_side)
-            (texels, size_, side_rings_,
-             buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_,
-             side_stride_, range, faces[face.face].values().data() + face.origin, face.along_u,
-             face.along_v);
+            (texels, size_, side_rings_, buffers.sides.data() + side_offset(side, u), range,
+             faces[face.face].values().data() + face.origin, face.along_u, face.along_v);
             return;
         }
         const int which = static_cast<int>(task) - 4 * per_side;
         const int cap = which % 2, quadrant = which / 2 % 4, a = which / 8 * kLines;
         const QuadrantPlacement place = place_quadrant(cap, quadrant, placement);
         const Quadrant q{size_,       half_,         column_count_, quadrant * column_count_ / 4,
-                         &cap_rings_, &cap_columns_, cap_stride_};
+                         &cap_rings_, &cap_columns_, &line_rings_,  reach_,
+                         cap_stride_};
         HWY_DYNAMIC_DISPATCH(make_cap)
         (q, a, std::min(a + kLines, half_),
          buffers.caps.data() + cap * cap_ring_count_ * cap_stride_, range,
@@ -606,24 +592,26 @@ void CubeGrid::spread_texels(const std::vector<Image>& faces, const CubePlacemen
     const auto spread_quadrant = [&](int cap, int quadrant) {
         const QuadrantPlacement place = place_quadrant(cap, quadrant, placement);
         const Quadrant q{size_,       half_,         column_count_, quadrant * column_count_ / 4,
-                         &cap_rings_, &cap_columns_, cap_stride_};
+                         &cap_rings_, &cap_columns_, &line_rings_,  reach_,
+                         cap_stride_};
+        ScratchArray line(scratch_, 4 * (2 * static_cast<std::size_t>(reach_) + 1));
         HWY_DYNAMIC_DISPATCH(spread_cap)
-        (q, 0, half_, solid_angles_.data(), faces[place.face].values().data() + place.middle,
-         place.along, place.across, size_ % 2 == 0 ? -place.across : 0,
+        (q, solid_angles_.data(), faces[place.face].values().data() + place.middle, place.along,
+         place.across, size_ % 2 == 0 ? -place.across : 0, line.data(),
          buffers.caps.data() + cap * cap_ring_count_ * cap_stride_);
     };
     // Neighbouring quadrants share columns of the grid, so they take turns.
     parallel_for(4 + 4 * side_blocks, [&](std::int64_t task) {
         const FlushDenormals flush;
-        if (task < 4) return spread_quadrant(static_cast<int>(task) % 2, static_cast<int>(task) / 2 * 2);
+        if (task < 4)
+            return spread_quadrant(static_cast<int>(task) % 2, static_cast<int>(task) / 2 * 2);
         const int side = static_cast<int>(task - 4) / side_blocks;
         const int u = static_cast<int>(task - 4) % side_blocks * kBlock;
         const FacePlacement& face = placement[side];
         HWY_DYNAMIC_DISPATCH(spread_side)
         ({u, std::min(u + kBlock, size_), 0, size_}, size_, side_rings_, solid_angles_.data(),
          faces[face.face].values().data() + face.origin, face.along_u, face.along_v,
-         buffers.sides.data() + 4 * static_cast<std::size_t>(side) * size_,
-         side_stride_);
+         buffers.sides.data() + side_offset(side, u));
     });
     parallel_for(4, [&](std::int64_t task) {
         const FlushDenormals flush;

@@ -3,10 +3,15 @@
 // Where a cube's axes lie along the grid's, its faces are four sides and two caps. On a side each
 // column of texels has one longitude: rings are interpolated along psi to those longitudes, and
 // then each texel along theta, eight taps twice. The texels of a cap take 8 x 8 taps at once; an
-// eighth of a cap has the positions and weights of all of it. Analysis does the same backwards: it
-// adds where synthesis reads, so that the sum over the grid is the sum over the texels.
+// eighth of a cap has the positions and weights of all of it.
 //
-//     sides: [ring, those between the caps][column of texels 0 .. 4n][RGBx]
+// Analysis does the same backwards: it adds where synthesis reads, so that the sum over the grid is
+// the sum over the texels. Where it differs is a cap, whose texels at one distance a along the axis
+// of a quadrant lie on a line that crosses the grid's columns once each: they are added to points
+// where columns cross that line, and those then to rings. Adding, unlike reading, waits for itself,
+// and 8 + 8 additions wait less than 64.
+//
+//     sides: [side][block of columns of texels][ring, those between the caps][column][RGBx]
 //     caps:  [north, south][4 rings beyond the pole, rings from the pole on][grid column, and the
 //            first eight again][RGBx]
 #pragma once
@@ -43,16 +48,30 @@ struct Range {
     alignas(16) float highest[4];
 };
 
+/// Columns of texels of a side that lie together: a block's rings are on few pages, and stay in the
+/// cache while its texels are made.
+inline constexpr int kBlock = 32;
+/// Values from a ring of a block to the next: an odd number of cache lines, so that the eight rings
+/// of a texel do not fall on the same ones.
+inline constexpr std::ptrdiff_t kSideStride = 4 * kBlock + 16;
+
 /// A block of texels of one side, columns [u0, u1) and rows [v0, v1).
 struct Block {
     int u0, u1, v0, v1;
 };
+
+/// Where the taps of texel (u, v) of a side's left half are: those of a block together.
+[[nodiscard]] inline std::size_t side_tap(int u, int v, int size) {
+    return (static_cast<std::size_t>(u / kBlock) * size + v) * kBlock + u % kBlock;
+}
 
 /// What a quadrant of a cap reads and writes.
 struct Quadrant {
     int size, half, column_count, axis_column;
     const TapList* rings;
     const TapList* columns;
+    const TapList* line_rings;
+    int reach;           // columns to each side of the axis
     std::size_t stride;  // values from a ring to the next
 };
 
@@ -78,8 +97,7 @@ class CubeGrid {
 
     void spread_texels(const std::vector<Image>& faces, const CubePlacement& placement,
                        Buffers& buffers) const;
-    void gather_group(int group, const Buffers& buffers,
-                      std::array<GroupValues, 3>& planes) const;
+    void gather_group(int group, const Buffers& buffers, std::array<GroupValues, 3>& planes) const;
 
   private:
     struct QuadrantPlacement {
@@ -88,20 +106,25 @@ class CubeGrid {
     };
     [[nodiscard]] QuadrantPlacement place_quadrant(int cap, int quadrant,
                                                    const CubePlacement& placement) const;
+    // Where column u of texels of a side is on the first ring.
+    [[nodiscard]] std::size_t side_offset(int side, int u) const;
     [[nodiscard]] int first_group() const { return first_side_ring_ / lane_count_; }
     [[nodiscard]] double coordinate(int i) const { return (2.0 * i + 1 - size_) / size_; }
 
     std::shared_ptr<ScratchPool> scratch_;
-    int size_, half_;            // half_: texels from the middle of a face out
+    int size_, half_;  // half_: texels from the middle of a face out
     int ring_count_, column_count_, lane_count_, group_count_;
     int first_side_ring_, cap_group_count_;
     int side_ring_count_, cap_ring_count_;
-    std::size_t side_stride_, cap_stride_;  // values from a ring to the next
-    TapList side_columns_;                  // [u], grid columns from the side's middle
-    TapList side_rings_;                    // [v][u of the left half], from the first side ring
-    TapList cap_rings_;                     // [a][b], 0 <= b <= a, from the first ring
-    TapList cap_columns_;                   // the same, columns off the quadrant's axis
-    std::vector<float> solid_angles_;       // [|v|][|u|], from the middle out
+    std::size_t cap_stride_;                 // values from a ring to the next
+    std::vector<std::size_t> side_offsets_;  // [side][u]
+    TapList side_columns_;                   // [u], grid columns from the side's middle
+    TapList side_rings_;                     // at side_tap(u, v), from the first side ring
+    TapList cap_rings_;                      // [a][b], 0 <= b <= a, from the first ring
+    TapList cap_columns_;                    // the same, columns off the quadrant's axis
+    int reach_;                              // columns to each side of a quadrant's axis
+    TapList line_rings_;                     // [a][column off the axis], where it crosses line a
+    std::vector<float> solid_angles_;        // [|v|][|u|], from the middle out
 };
 
 }  // namespace mirrorball::detail

@@ -129,8 +129,8 @@ HWY_INLINE float* transform(const FourierPlan& plan, float* values, float* other
                 break;
             case 5:
                 fourier_pass<5>(plan, pass, values, other, [](Complexes* a) HWY_ATTR {
-                    const float c1 = 0.309016994f, c2 = -0.809016994f;   // cos 72, 144 degrees
-                    const float s1 = 0.951056516f, s2 = 0.587785252f;  // and their sines
+                    const float c1 = 0.309016994f, c2 = -0.809016994f;  // cos 72, 144 degrees
+                    const float s1 = 0.951056516f, s2 = 0.587785252f;   // and their sines
                     const Complexes b = a[1] + a[4], c = a[2] + a[3];
                     const Complexes d = a[1] - a[4], e = a[2] - a[3];
                     const Complexes f = plus_scaled(plus_scaled(a[0], c1, b), c2, c);

@@ -16,7 +16,8 @@ double epsilon(double l, double m) {
 }  // namespace
 
 LegendreTable::LegendreTable(int band_count)
-    : band_count_(band_count), offsets_(static_cast<std::size_t>(band_count) + 1) {
+    : band_count_(band_count),
+      offsets_(static_cast<std::size_t>(band_count) + 1) {
     for (int m = 0; m < band_count; ++m) offsets_[m + 1] = offsets_[m] + step_count(m, band_count);
     steps_.resize(offsets_.back());
     scales_.resize(offsets_.back());

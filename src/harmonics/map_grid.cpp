@@ -40,8 +40,7 @@ void make_texel(const float* from, int first_column, int column_count, std::size
 }
 
 void spread_texel(const float* texel, float solid_angle, float* to, int first_column,
-                  int column_count, std::size_t stride, const float* rings,
-                  const float* columns) {
+                  int column_count, std::size_t stride, const float* rings, const float* columns) {
     const Texel4 d;
     const auto value = hn::Mul(hn::LoadU(d, texel), hn::Set(d, solid_angle));
     for (int i = 0; i < kTapCount; ++i) {
@@ -155,7 +154,8 @@ void MapGrid::scatter_group(int group, const std::array<GroupValues, 3>& planes,
     const int ring = group * lane_count_;
     float* const rings = buffer.data() + 4 * kBeyondPole;
     HWY_DYNAMIC_DISPATCH(scatter_rings)
-    (from, column_count_, rings + 4 * ring, rings + 4 * (ring_count_ - ring - lane_count_), stride_);
+    (from, column_count_, rings + 4 * ring, rings + 4 * (ring_count_ - ring - lane_count_),
+     stride_);
 }
 
 void MapGrid::make_texels(Buffer& buffer, const Vec3f& lowest, const Vec3f& highest,
@@ -196,8 +196,7 @@ void MapGrid::spread_texels(const std::vector<Image>& faces, Buffer& buffer) con
             const std::int64_t block = 2 * half + parity;
             for (std::size_t i = block_begins_[block]; i < block_begins_[block + 1]; ++i) {
                 HWY_DYNAMIC_DISPATCH(spread_texel)
-                (faces[texels_[i].face].values().data() + texels_[i].offset,
-                 texels_[i].solid_angle,
+                (faces[texels_[i].face].values().data() + texels_[i].offset, texels_[i].solid_angle,
                  buffer.data() + 4 * static_cast<std::size_t>(rings_.first[i]), columns_.first[i],
                  column_count_, stride_, rings_.weights.data() + i * kTapCount,
                  columns_.weights.data() + i * kTapCount);

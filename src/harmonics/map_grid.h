@@ -41,9 +41,9 @@ class MapGrid {
     };
     std::shared_ptr<ScratchPool> scratch_;
     int ring_count_, column_count_, lane_count_;
-    std::size_t stride_;          // in rings
-    std::vector<Texel> texels_;   // used ones, by the first of their columns
-    TapList rings_, columns_;     // of each texel
+    std::size_t stride_;                     // in rings
+    std::vector<Texel> texels_;              // used ones, by the first of their columns
+    TapList rings_, columns_;                // of each texel
     std::vector<std::size_t> block_begins_;  // texels whose first column is in block i
 };
 

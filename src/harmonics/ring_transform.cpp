@@ -66,11 +66,10 @@ int find_seeds(const LegendreTable& table, int order, int step_count, int first,
         const auto alpha = hn::Set(d, steps[step].alpha), beta = hn::Set(d, steps[step].beta);
         for (std::size_t i = 0; i < n; i += vector_size) {
             const auto v = hn::Load(d, x + i), p = hn::Load(d, now + i);
-            auto next = hn::MulSub(hn::MulAdd(alpha, hn::Mul(v, v), beta), p,
-                                   hn::Load(d, before + i));
+            auto next =
+                hn::MulSub(hn::MulAdd(alpha, hn::Mul(v, v), beta), p, hn::Load(d, before + i));
             auto old = p, exponent = hn::Load(d, scale + i);
-            const auto rescale =
-                hn::And(hn::Gt(hn::Abs(next), up), hn::Gt(exponent, hn::Zero(d)));
+            const auto rescale = hn::And(hn::Gt(hn::Abs(next), up), hn::Gt(exponent, hn::Zero(d)));
             next = hn::IfThenElse(rescale, hn::Mul(next, down), next);
             old = hn::IfThenElse(rescale, hn::Mul(old, down), old);
             exponent = hn::IfThenElse(rescale, hn::Sub(exponent, one), exponent);
@@ -88,8 +87,8 @@ int find_seeds(const LegendreTable& table, int order, int step_count, int first,
 // Analysis ---------------------------------------------------------------------------------------
 
 // Four texels of RGB from each of four rows, into four lanes of three planes.
-HWY_INLINE void load_4_rows_4_texels(const float* const* rows, std::size_t offset,
-                                     float* const* to, std::size_t step) {
+HWY_INLINE void load_4_rows_4_texels(const float* const* rows, std::size_t offset, float* const* to,
+                                     std::size_t step) {
     const hn::FixedTag<float, 4> d;
     const hn::FixedTag<double, 2> pairs;
     for (std::size_t part = 0; part < 3; ++part) {
@@ -125,8 +124,7 @@ void load_rows(const float* const* rows, std::size_t width, float* const* planes
         }
         for (; x < width; ++x) {
             for (std::size_t i = 0; i < 4; ++i) {
-                for (std::size_t c = 0; c < 3; ++c)
-                    to[c][x * step + i] = rows[lane + i][3 * x + c];
+                for (std::size_t c = 0; c < 3; ++c) to[c][x * step + i] = rows[lane + i][3 * x + c];
             }
         }
     }
@@ -151,8 +149,9 @@ void load_columns(const float* north, const float* south, std::size_t stride, st
 }
 
 // Transforms one channel of a group and unpacks north + i south into even and odd parts.
-void to_spectra(const FourierPlan& plan, const Columns& columns, const float* weights, const double* x,
-                int channel, int order_count, float* values, float* scratch, float* spectra) {
+void to_spectra(const FourierPlan& plan, const Columns& columns, const float* weights,
+                const double* x, int channel, int order_count, float* values, float* scratch,
+                float* spectra) {
     const Lanes d;
     const std::size_t n = hn::Lanes(d), length = plan.length();
     const float* const z = transform(plan, values, scratch);
@@ -175,9 +174,8 @@ void to_spectra(const FourierPlan& plan, const Columns& columns, const float* we
         const Vec s = hn::Set(d, static_cast<float>(columns.direction * turn.imag()));
         turn *= step;
         const Vec sign = hn::Set(d, static_cast<float>(-columns.direction));
-        const auto cosines = [&](const Complexes& v) HWY_ATTR {
-            return hn::MulAdd(v.re, c, hn::Mul(v.im, s));
-        };
+        const auto cosines = [&](const Complexes& v)
+                                 HWY_ATTR { return hn::MulAdd(v.re, c, hn::Mul(v.im, s)); };
         const auto sines = [&](const Complexes& v) HWY_ATTR {
             return hn::Mul(sign, hn::MulSub(v.im, c, hn::Mul(v.re, s)));
         };
@@ -258,8 +256,7 @@ void synthesise_order(const LegendreOrder& order, const float* weights, float* s
             p.advance(order.steps[step]);
             const float* const w = weights + static_cast<std::size_t>(step) * kParts;
             HWY_UNROLL(12)
-            for (int i = 0; i < kParts; ++i)
-                sum[i] = hn::MulAdd(value, hn::Set(d, w[i]), sum[i]);
+            for (int i = 0; i < kParts; ++i) sum[i] = hn::MulAdd(value, hn::Set(d, w[i]), sum[i]);
         }
         HWY_ALIGN float cosines[16];
         for (std::size_t i = 0; i < n; ++i) cosines[i] = static_cast<float>(x[i]);
@@ -328,8 +325,7 @@ int ring_lane_count() {
 }
 
 RingTransform::RingTransform(std::shared_ptr<const LegendreTable> table, int band_count,
-                             int ring_count, int column_count,
-                             std::shared_ptr<ScratchPool> scratch)
+                             int ring_count, int column_count, std::shared_ptr<ScratchPool> scratch)
     : table_(std::move(table)),
       band_count_(band_count),
       ring_count_(ring_count),
@@ -359,8 +355,8 @@ void RingTransform::make_seeds() {
         for (std::size_t group = groups; group-- > 0;) {
             const std::size_t at = static_cast<std::size_t>(order) * groups + group;
             start = HWY_DYNAMIC_DISPATCH(find_seeds)(
-                *table_, m, LegendreTable::step_count(m, band_count_), start,
-                x_.data() + group * n, seeds_.data() + at * 2 * n);
+                *table_, m, LegendreTable::step_count(m, band_count_), start, x_.data() + group * n,
+                seeds_.data() + at * 2 * n);
             starts_[at] = start;
         }
     });
@@ -409,12 +405,12 @@ void RingTransform::to_spectra(int group, std::array<GroupValues, 3>& planes, Gr
     }
 }
 
-LegendreOrder RingTransform::legendre_order(int m) const {
+LegendreOrder RingTransform::legendre_order(int m, int band_count) const {
     const std::size_t groups = group_count_, at = groups * m;
     return {table_->steps(m),
             table_->scales(m),
-            LegendreTable::step_count(m, band_count_),
-            band_count_ - m,
+            LegendreTable::step_count(m, band_count),
+            band_count - m,
             group_count_,
             starts_.data() + at,
             seeds_.data() + at * 2 * lane_count_,
@@ -426,12 +422,13 @@ void RingTransform::analyse(const RingSpectra& spectra, Harmonics& harmonics) co
     parallel_for(band_count_, [&](std::int64_t i) {
         const FlushDenormals flush;
         const int m = static_cast<int>(i);
-        const LegendreOrder order = legendre_order(m);
+        const LegendreOrder order = legendre_order(m, band_count_);
         AlignedArray<double> state(static_cast<std::size_t>(group_count_) * 2 * lane_count_);
         ScratchArray functions(scratch_, static_cast<std::size_t>(group_count_) * 2 * lane_count_);
         // in steps of two, and each sum is stored with a vector's rest
         ScratchArray sums(scratch_, static_cast<std::size_t>(order.step_count + 1) * kParts + 16);
-        const float* const from = spectra.data() + static_cast<std::size_t>(m) * kParts * lane_count_;
+        const float* const from =
+            spectra.data() + static_cast<std::size_t>(m) * kParts * lane_count_;
         HWY_DYNAMIC_DISPATCH(analyse_order)
         (order, from, state.data(), functions.data(), sums.data(), harmonics.order(m).data());
     });
@@ -439,10 +436,11 @@ void RingTransform::analyse(const RingSpectra& spectra, Harmonics& harmonics) co
 
 void RingTransform::synthesise(const Harmonics& harmonics, std::span<const float> zonal,
                                RingSpectra& spectra) const {
-    parallel_for(band_count_, [&](std::int64_t i) {
+    const int band_count = static_cast<int>(zonal.size());
+    parallel_for(band_count, [&](std::int64_t i) {
         const FlushDenormals flush;
         const int m = static_cast<int>(i);
-        const LegendreOrder order = legendre_order(m);
+        const LegendreOrder order = legendre_order(m, band_count);
         const std::span<const float> coefficients = harmonics.order(m);
         // filtered, with two degrees of zeros at the end; each sign of m > 0 has half of the light
         const std::size_t steps = order.step_count;
@@ -468,7 +466,7 @@ void RingTransform::synthesise(const Harmonics& harmonics, std::span<const float
     });
 }
 
-void RingTransform::from_spectra(int group, const RingSpectra& spectra,
+void RingTransform::from_spectra(int group, const RingSpectra& spectra, int order_count,
                                  std::span<const float> ring_weights,
                                  std::array<GroupValues, 3>& planes, GroupValues& scratch) const {
     const std::size_t first = static_cast<std::size_t>(group) * lane_count_;
@@ -476,7 +474,7 @@ void RingTransform::from_spectra(int group, const RingSpectra& spectra,
     const float* const weights = ring_weights.empty() ? nullptr : ring_weights.data() + first;
     for (int channel = 0; channel < 3; ++channel) {
         const float* const result = HWY_DYNAMIC_DISPATCH(from_spectra)(
-            fourier_, weights, channel, band_count_, from, planes[channel].data(), scratch.data());
+            fourier_, weights, channel, order_count, from, planes[channel].data(), scratch.data());
         if (result == scratch.data()) std::swap(planes[channel], scratch);
     }
 }

@@ -28,8 +28,8 @@ namespace mirrorball::detail {
 /// Rings that one vector of this processor holds.
 [[nodiscard]] int ring_lane_count();
 
-/// Where the columns of a grid are: azimuth psi_k = first + direction * 2 pi k / column_count, about
-/// +y from +z towards +x.
+/// Where the columns of a grid are: azimuth psi_k = first + direction * 2 pi k / column_count,
+/// about +y from +z towards +x.
 struct Columns {
     double first = 0;
     int direction = 1;  ///< or -1
@@ -78,16 +78,19 @@ class RingTransform {
 
     // Synthesis: all orders, then values of any group.
 
-    /// Degree l is multiplied by zonal[l]. \pre zonal.size() == band_count()
+    /// Degree l is multiplied by zonal[l]; those without a factor are left out.
+    /// \pre zonal.size() is at most band_count() and harmonics.band_count()
     void synthesise(const Harmonics& harmonics, std::span<const float> zonal,
                     RingSpectra& spectra) const;
-    /// With columns from +z on; `ring_weights` as above, or empty.
-    void from_spectra(int group, const RingSpectra& spectra, std::span<const float> ring_weights,
-                      std::array<GroupValues, 3>& planes, GroupValues& scratch) const;
+    /// With columns from +z on, of the `order_count` orders that were synthesised; `ring_weights`
+    /// as above, or empty.
+    void from_spectra(int group, const RingSpectra& spectra, int order_count,
+                      std::span<const float> ring_weights, std::array<GroupValues, 3>& planes,
+                      GroupValues& scratch) const;
 
   private:
     void make_seeds();
-    [[nodiscard]] LegendreOrder legendre_order(int m) const;
+    [[nodiscard]] LegendreOrder legendre_order(int m, int band_count) const;
 
     std::shared_ptr<const LegendreTable> table_;
     int band_count_, ring_count_, lane_count_, group_count_;

@@ -103,8 +103,7 @@ void TapDesign::weights(double fraction, float* to) const {
     const int entry = std::clamp(static_cast<int>(x), 0, kEntryCount - 1);
     const float share = static_cast<float>(x - entry);
     const float* const from = table_.data() + static_cast<std::size_t>(entry) * kTapCount;
-    for (int i = 0; i < kTapCount; ++i)
-        to[i] = from[i] + share * (from[kTapCount + i] - from[i]);
+    for (int i = 0; i < kTapCount; ++i) to[i] = from[i] + share * (from[kTapCount + i] - from[i]);
 }
 
 std::vector<double> TapDesign::wave_errors(double step, int count) const {

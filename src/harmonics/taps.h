@@ -2,9 +2,9 @@
 //
 // The weights for a point between two grid values are those that reproduce a wave exp(i l x) best,
 // in the least-squares sense, over the waves that are there: degrees l weighted by the power that
-// they have (that of the lobe's own coefficients, the case of one lit texel), and constants exactly.
-// Next to Lagrange's weights, which are exact for polynomials, that is three to ten times closer on
-// the same grid; figures are in docs/theory/spectral-prefiltering.md.
+// they have (that of the lobe's own coefficients, the case of one lit texel), and constants
+// exactly. Next to Lagrange's weights, which are exact for polynomials, that is three to ten times
+// closer on the same grid; figures are in docs/theory/spectral-prefiltering.md.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ class TapDesign {
     /// For the point `fraction` in [0, 1) after the fourth of eight grid values.
     void weights(double fraction, float* to) const;
 
-    /// Of waves exp(i l x) for l < count: the rms over all fractions of what they come out wrong by.
+    /// Of waves exp(i l x) for l < count: the rms over all fractions of what they come out wrong
+    /// by.
     [[nodiscard]] std::vector<double> wave_errors(double step, int count) const;
 
   private:

@@ -10,13 +10,13 @@ namespace mirrorball::detail {
 namespace {
 
 // Values of a grid per value that its bands need. Eight taps then interpolate a lobe of GGX's
-// spectrum to 2e-5 of its rms; a spectrum that is cut off while it is high needs more, and few bands
-// can have it for nothing.
+// spectrum to 2e-5 of its rms; a spectrum that is cut off while it is high needs more, and few
+// bands can have it for nothing.
 constexpr double kOversampling = 1.5, kMoreOversampling = 2.2, kMostOversampling = 3;
 constexpr int kFewBands = 160;
 constexpr double kMostAtEdge = 1e-5;  // of the power, in the last quarter of the bands
 
-double oversampling(std::span<const double> power) {
+double oversampling_for(std::span<const double> power) {
     double all = 0, edge = 0;
     for (std::size_t l = 0; l < power.size(); ++l) {
         const double here = (2 * static_cast<double>(l) + 1) * power[l];
@@ -28,8 +28,8 @@ double oversampling(std::span<const double> power) {
 }
 
 RingTransform grid_transform(std::shared_ptr<const LegendreTable> table, int band_count,
-                             std::span<const double> power, std::shared_ptr<ScratchPool> scratch) {
-    const double values = oversampling(power) * band_count;
+                             double oversampling, std::shared_ptr<ScratchPool> scratch) {
+    const double values = oversampling * band_count;
     const int whole = 2 * ring_lane_count();
     const int ring_count = (std::max(32, static_cast<int>(std::ceil(values))) + whole - 1) / whole;
     const int column_count = good_fourier_length(std::max(64, static_cast<int>(2 * values)));
@@ -70,22 +70,25 @@ EnvironmentMap empty_map(const MapShape& shape) {
 
 AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
                            int band_count, std::span<const double> power,
-                           std::shared_ptr<ScratchPool> scratch)
-    : shape_(shape), band_count_(band_count) {
+                           std::shared_ptr<ScratchPool> scratch, std::optional<double> oversampling)
+    : shape_(shape),
+      band_count_(band_count) {
     if (is_ring_grid(shape)) {
         const int width = shape.size, height = shape.size / 2;
         rings_.emplace(std::move(table), band_count, height, width, std::move(scratch));
         columns_ = panorama_columns(shape);
-        ring_weights_.assign(
-            static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(), 0.0f);
+        ring_weights_.assign(static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(),
+                             0.0f);
         for (int j = 0; j < (height + 1) / 2; ++j) {
             const double cap = std::sin(kPi * (2 * j + 1) / (2.0 * height));
-            ring_weights_[j] = static_cast<float>(2 * cap * std::sin(kPi / (2.0 * height)) * 2 *
-                                                  kPi / width);
+            ring_weights_[j] =
+                static_cast<float>(2 * cap * std::sin(kPi / (2.0 * height)) * 2 * kPi / width);
         }
         return;
     }
-    rings_.emplace(grid_transform(std::move(table), band_count, power, std::move(scratch)));
+    rings_.emplace(grid_transform(std::move(table), band_count,
+                                  oversampling.value_or(oversampling_for(power)),
+                                  std::move(scratch)));
     ring_weights_.assign(static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(),
                          1.0f);
     if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
@@ -123,9 +126,11 @@ void AnalysisPlan::run(const std::vector<Image>& faces, Harmonics& harmonics) co
 
 SynthesisPlan::SynthesisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
                              int band_count, std::span<const double> power,
-                             std::shared_ptr<ScratchPool> scratch)
+                             std::shared_ptr<ScratchPool> scratch,
+                             std::optional<double> oversampling)
     : shape_(shape),
-      rings_(grid_transform(std::move(table), band_count, power, std::move(scratch))) {
+      rings_(grid_transform(std::move(table), band_count,
+                            oversampling.value_or(oversampling_for(power)), std::move(scratch))) {
     if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
         cube_.emplace(shape.size, *rings_, power);
     else
@@ -162,7 +167,8 @@ void SynthesisPlan::run(const Harmonics& harmonics, std::span<const float> zonal
         const int group = static_cast<int>(i);
         std::array<GroupValues, 3> planes = make_planes(*rings_);
         GroupValues scratch = rings_->make_values();
-        rings_->from_spectra(group, spectra, ring_weights, planes, scratch);
+        rings_->from_spectra(group, spectra, static_cast<int>(zonal.size()), ring_weights, planes,
+                             scratch);
         if (cube_)
             cube_->scatter_group(group, planes, buffers);
         else

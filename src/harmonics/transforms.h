@@ -22,7 +22,8 @@ namespace mirrorball::detail {
 class AnalysisPlan {
   public:
     AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table, int band_count,
-                 std::span<const double> power, std::shared_ptr<ScratchPool> scratch);
+                 std::span<const double> power, std::shared_ptr<ScratchPool> scratch,
+                 std::optional<double> oversampling = {});
 
     /// \pre map has the plan's shape
     void run(const std::vector<Image>& faces, Harmonics& harmonics) const;
@@ -46,9 +47,11 @@ class AnalysisPlan {
 /// Coefficients to the texels of a map.
 class SynthesisPlan {
   public:
-    /// Degrees below `band_count`, with power `power`.
+    /// Degrees below `band_count`, with power `power`; the grid has `oversampling` values for each
+    /// that the bands need, by default what the power asks for.
     SynthesisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table, int band_count,
-                  std::span<const double> power, std::shared_ptr<ScratchPool> scratch);
+                  std::span<const double> power, std::shared_ptr<ScratchPool> scratch,
+                  std::optional<double> oversampling = {});
 
     [[nodiscard]] const MapShape& shape() const { return shape_; }
     [[nodiscard]] int band_count() const { return rings_->band_count(); }
@@ -59,7 +62,9 @@ class SynthesisPlan {
     /// square. \pre `power` is what the plan was made with
     [[nodiscard]] std::vector<double> wave_errors(std::span<const double> power) const;
 
-    /// Texels are clamped to [lowest, highest] per channel. \pre harmonics has the bands
+    /// Degree l is multiplied by zonal[l]; those without a factor are left out, and cost nothing.
+    /// Texels are clamped to [lowest, highest] per channel. \pre zonal.size() is at most
+    /// band_count() and harmonics.band_count()
     void run(const Harmonics& harmonics, std::span<const float> zonal,
              std::span<const float> ring_weights, const Vec3f& lowest, const Vec3f& highest,
              std::vector<Image>& faces) const;

@@ -18,19 +18,6 @@ double square(double x) {
 
 }  // namespace
 
-std::vector<double> power_spectrum(const Harmonics& harmonics) {
-    std::vector<double> power(harmonics.band_count());
-    for (int m = 0; m < harmonics.band_count(); ++m) {
-        const std::span<const float> order = harmonics.order(m);
-        for (std::size_t i = 0; i < order.size(); i += 6) {
-            float sum = 0;
-            for (std::size_t k = 0; k < 6; ++k) sum += order[i + k] * order[i + k];
-            power[m + i / 6] += sum;
-        }
-    }
-    return power;
-}
-
 double estimated_error(std::span<const double> spectrum, const ErrorTerms& terms) {
     double result = 0, error = 0;
     for (std::size_t l = 0; l < spectrum.size(); ++l) {

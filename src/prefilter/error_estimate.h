@@ -2,22 +2,16 @@
 #pragma once
 
 #include <span>
-#include <vector>
-
-#include <mirrorball/harmonics.h>
 
 #include "prefilter/band_split.h"
 
 namespace mirrorball::detail {
 
-/// Sums over orders and channels of squared coefficients, per degree.
-[[nodiscard]] std::vector<double> power_spectrum(const Harmonics& harmonics);
-
 struct ErrorTerms {
-    std::span<const double> lambda;   ///< the whole lobe's, for as many degrees as are known
-    std::span<const double> far;      ///< what was summed
-    std::span<const double> waves;    ///< relative error of the grid's interpolation, per degree
-    double beyond;                    ///< sum over the degrees not in lambda of (2l+1) lambda_l^2
+    std::span<const double> lambda;  ///< the whole lobe's, for as many degrees as are known
+    std::span<const double> far;     ///< what was summed
+    std::span<const double> waves;   ///< relative error of the grid's interpolation, per degree
+    double beyond;                   ///< sum over the degrees not in lambda of (2l+1) lambda_l^2
 };
 
 /// Relative: the error's rms over the result's.

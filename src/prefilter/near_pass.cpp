@@ -30,7 +30,12 @@ struct TileBuffer {
         const auto part = [this](std::array<float, kCount>& a) {
             return std::span<float>(a).first(count);
         };
-        return {part(x), part(y), part(z), part(r), part(g), part(b),
+        return {part(x),
+                part(y),
+                part(z),
+                part(r),
+                part(g),
+                part(b),
                 weighted ? part(weight) : std::span<float>()};
     }
 };

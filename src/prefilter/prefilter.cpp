@@ -35,9 +35,9 @@ constexpr int kMostBands = 1024, kBandsBesideWholeSource = 512;
 // wide near part, fewer are; where the spectrum says that it is not enough, more.
 constexpr float kLights[] = {0, 1.5, 6, 24, 48, 96, 192, 384};
 constexpr std::size_t kUsualLights = 3;
-constexpr double kMostPairs = 1e6;  // of lights and texels, about a nanosecond each
+constexpr double kMostPairs = 5e5;  // of lights and texels, about a nanosecond each
 constexpr std::size_t kMostLights = 2000;
-constexpr double kEnough = 1.5;     // tolerances, as estimated, which is on the safe side
+constexpr double kEnough = 1.5;  // tolerances, as estimated, which is on the safe side
 
 // What harmonics alone are asked for of a single lit texel, in tolerances: such a texel is put
 // right in space, and the spectra of all else fall, so that the error comes out far below.
@@ -65,11 +65,11 @@ struct Source {
 /// One target that is not a mere resampling.
 struct Filtered {
     BandSplit split;
-    std::vector<double> lambda;        // of the analysed bands
-    double beyond = 0;                 // sum over all others of (2l+1) lambda_l^2
+    std::vector<double> lambda;  // of the analysed bands
+    double beyond = 0;           // sum over all others of (2l+1) lambda_l^2
     std::vector<float> far;
     std::vector<double> waves;
-    bool whole_source_near = false;    // for lobes that harmonics do not carry
+    bool whole_source_near = false;  // for lobes that harmonics do not carry
     std::optional<SynthesisPlan> synthesis;
     std::vector<float> ring_weights;
     std::optional<EnvironmentMap> far_weights;
@@ -114,8 +114,7 @@ class PrefilterPlan::Plan {
     void split_lobes(double tolerance);
     void make_transforms();
     void normalise();
-    [[nodiscard]] double spectral_error(const Filtered& f,
-                                        std::span<const double> spectrum) const {
+    [[nodiscard]] double spectral_error(const Filtered& f, std::span<const double> spectrum) const {
         return estimated_error(spectrum, {f.lambda, f.split.far, f.waves, f.beyond});
     }
     // Of what the near part has nothing to do with.
@@ -203,8 +202,8 @@ void PrefilterPlan::Plan::make_transforms() {
 // Divides by the lobes' own sums over the source, whose points and areas integrate no lobe quite to
 // one. Where the source is a panorama that sum depends on the latitude alone.
 void PrefilterPlan::Plan::normalise() {
-    const bool is_needed = std::ranges::any_of(
-        filtered_, [](const auto& f) { return f && f->whole_source_near; });
+    const bool is_needed =
+        std::ranges::any_of(filtered_, [](const auto& f) { return f && f->whole_source_near; });
     if (!analysis_ || !(is_needed || analysis_->on_rings())) return;
     EnvironmentMap white = make_environment_map(source_.projection, source_.size);
     for (Image& face : white.levels[0].faces) std::ranges::fill(face.values(), 1.0f);
@@ -226,8 +225,7 @@ void PrefilterPlan::Plan::normalise() {
         for (const double theta : colatitudes) x.push_back(1 - std::cos(theta));
         for (std::size_t l = 0; l < f.far.size(); ++l) {
             const double norm = std::sqrt((2 * static_cast<double>(l) + 1) / (4 * kPi));
-            series.push_back(norm * f.split.far[l] *
-                             ones.coefficient(static_cast<int>(l), 0).x);
+            series.push_back(norm * f.split.far[l] * ones.coefficient(static_cast<int>(l), 0).x);
         }
         legendre_series(series, x, sums, {});
         for (const double sum : sums)
@@ -239,7 +237,8 @@ void PrefilterPlan::Plan::find_lights(const EnvironmentMap& source, Source& s) c
     s.choices.resize(targets_.size());
     const float brightest = std::max({s.range.highest.x, s.range.highest.y, s.range.highest.z});
     const Vec3f first = s.harmonics.coefficient(0, 0);
-    const float mean = (first.x + first.y + first.z) / 3 * static_cast<float>(std::sqrt(1 / (4 * kPi)));
+    const float mean =
+        (first.x + first.y + first.z) / 3 * static_cast<float>(std::sqrt(1 / (4 * kPi)));
     if (!(mean > 0)) return;
     double square = 0;
     for (std::size_t l = 1; l < s.spectrum.size(); ++l) square += s.spectrum[l];
@@ -316,8 +315,13 @@ void PrefilterPlan::Plan::run(const EnvironmentMap& source, Prefiltered& result,
     }
     result.errors.assign(targets_.size(), 0);
 
-    Source s{range_of(source, solid_angles_), Harmonics(analysis_ ? analysis_->band_count() : 0),
-             {}, 0, {}, {}, {}};
+    Source s{range_of(source, solid_angles_),
+             Harmonics(analysis_ ? analysis_->band_count() : 0),
+             {},
+             0,
+             {},
+             {},
+             {}};
     if (analysis_) {
         analysis_->run(source.levels[0].faces, s.harmonics);
         s.spectrum = power_spectrum(s.harmonics);

@@ -125,8 +125,8 @@ SourceRange range_of(const EnvironmentMap& map, const std::vector<double>& solid
         const double* const row = solid_angles.data() + width * static_cast<std::size_t>(y);
         rows[i] = fills ? range_of_whole_row(image.row(y)) : range_of_row(image.row(y), row);
     });
-    SourceRange range{Vec3f(kInfinity, kInfinity, kInfinity),
-                      Vec3f(-kInfinity, -kInfinity, -kInfinity), {}};
+    SourceRange range{
+        Vec3f(kInfinity, kInfinity, kInfinity), Vec3f(-kInfinity, -kInfinity, -kInfinity), {}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!rows[i].finite) {
             const std::size_t height = map.height();
@@ -139,7 +139,8 @@ SourceRange range_of(const EnvironmentMap& map, const std::vector<double>& solid
             range.lowest[c] = std::min(range.lowest[c], rows[i].lowest[c]);
             range.highest[c] = std::max(range.highest[c], rows[i].highest[c]);
         }
-        range.rows.push_back(std::max({rows[i].highest[0], rows[i].highest[1], rows[i].highest[2]}));
+        range.rows.push_back(
+            std::max({rows[i].highest[0], rows[i].highest[1], rows[i].highest[2]}));
     }
     return range;
 }

@@ -31,6 +31,6 @@ struct SourceRange {
 
 /// The standard deviation over the sphere and the channels of what lights_above() leaves.
 [[nodiscard]] double deviation_below(const EnvironmentMap& map,
-                                       const std::vector<double>& solid_angles, float threshold);
+                                     const std::vector<double>& solid_angles, float threshold);
 
 }  // namespace mirrorball::detail
