@@ -66,10 +66,12 @@ void check_not_swallowed(const std::string& name, const std::string& value) {
 void declare(CLI::App& app, const Command& command, std::vector<Found>& options) {
     for (std::size_t i = 0; i < command.options.size(); ++i) {
         const Option& option = command.options[i];
-        options[i].parsed =
-            option.value_name.empty()
-                ? app.add_flag(option.names)
-                : app.add_option(option.names, options[i].values)->expected(1)->take_all();
+        options[i].parsed = option.value_name.empty()
+                                ? app.add_flag(option.names)
+                                : app.add_option(option.names, options[i].values)
+                                      ->expected(1)
+                                      ->take_all()
+                                      ->allow_extra_args(false);
     }
 }
 

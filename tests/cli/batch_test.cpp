@@ -174,9 +174,10 @@ TEST_F(Batch, ToleranceHasARange) {
         "--reference");
 }
 
-// The estimate is not below the real error, which is within the tolerance: the result holds 32-bit
-// floats, so that nothing else adds to it.
-TEST_F(Batch, EstimatesBoundTheErrorAgainstTheReference) {
+// Against the reference, in 32-bit floats, so that nothing else adds to the error. That it is
+// within the tolerance is a law; the estimate is of its size, to a factor of two here (how sharp it
+// is, is for tests/prefilter to say).
+TEST_F(Batch, ToleranceIsKeptAndTheEstimateIsOfTheErrorsSize) {
     const auto chain = [&](const std::string& name, std::vector<std::string> more) {
         auto arguments =
             prefilter({file("a.hdr"), "-o", file(name), "--json", "--format", "rgba32f"});
@@ -193,7 +194,7 @@ TEST_F(Batch, EstimatesBoundTheErrorAgainstTheReference) {
         for (int level = 0; level < 2; ++level) {
             const double error = difference["levels"][level]["relative_rmse"];
             EXPECT_LE(error, tolerance);
-            EXPECT_GE(made["estimated_errors"][level].get<double>() * 1.05 + 1e-6, error);
+            EXPECT_GE(2 * made["estimated_errors"][level].get<double>() + 1e-6, error);
         }
     }
 }
@@ -216,16 +217,16 @@ TEST_F(Batch, BakeTellsTheErrorsThatItEstimates) {
     EXPECT_NE(contents(folder_ / "out/index.html").find("Estimated error"), std::string::npos);
 }
 
-// 4096 x 2048 texels take 96 MiB.
+// 2048 x 1024 texels take 24 MiB.
 TEST_F(Batch, AMapLargerThanMemoryIsReduced) {
-    must({"sky", "grid", "-o", file("large.hdr"), "--size", "4096"});
+    must({"sky", "white", "-o", file("large.hdr"), "--size", "2048"});
     for (const bool baked : {false, true}) {
-        const std::vector<std::string> inputs = {file("large.hdr"), "--memory", "60M", "-o"};
+        const std::vector<std::string> inputs = {file("large.hdr"), "--memory", "30M", "-o"};
         auto arguments = baked ? bake(inputs) : prefilter(inputs);
         arguments.push_back(file(baked ? "baked" : "out.ktx2"));
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.code, 0) << outcome.err;
-        EXPECT_NE(outcome.err.find("4096 x 2048 texels were averaged"), std::string::npos)
+        EXPECT_NE(outcome.err.find("2048 x 1024 texels were averaged"), std::string::npos)
             << outcome.err;
     }
 }
