@@ -22,14 +22,15 @@ void parallel_for(std::int64_t count, const std::function<void(std::int64_t)>& f
         if (!progress(static_cast<double>(done) / static_cast<double>(count)))
             throw Error(Errc::cancelled, "cancelled");
     };
-    tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count),
-                      [&](const tbb::blocked_range<std::int64_t>& range) {
-                          for (std::int64_t i = range.begin(); i != range.end(); ++i) {
-                              f(i);
-                              if (progress) report(++done_count);
-                          }
-                      },
-                      tbb::simple_partitioner());
+    tbb::parallel_for(
+        tbb::blocked_range<std::int64_t>(0, count),
+        [&](const tbb::blocked_range<std::int64_t>& range) {
+            for (std::int64_t i = range.begin(); i != range.end(); ++i) {
+                f(i);
+                if (progress) report(++done_count);
+            }
+        },
+        tbb::simple_partitioner());
     // the last piece may have found another thread reporting
     if (progress) report(count);
 }

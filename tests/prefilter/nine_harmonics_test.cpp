@@ -42,8 +42,9 @@ TEST(NineHarmonics, BasisIsOrthonormalInEveryProjection) {
     for (std::size_t i = 0; i < kProjectionCount; ++i) {
         const auto projection = static_cast<Projection>(i);
         for (int k = 0; k < kNineHarmonics; ++k) {
-            const auto map = filled(projection, projection == Projection::cube ? 64 : 256,
-                                    [k](const Vec3d& d) { return Vec3d(nine_harmonic_basis(d)[k]); });
+            const auto map =
+                filled(projection, projection == Projection::cube ? 64 : 256,
+                       [k](const Vec3d& d) { return Vec3d(nine_harmonic_basis(d)[k]); });
             const NineHarmonics found = analyse_nine(map);
             for (int j = 0; j < kNineHarmonics; ++j) {
                 EXPECT_NEAR(found.coefficients[j].x, j == k ? 1 : 0, 2e-3)
