@@ -187,7 +187,7 @@ void fourier_synthesis(const Stages& s, const RingSpectra& spectra, CubeGrid::Bu
         const int group = static_cast<int>(i);
         Planes planes = make_planes(s.grid);
         GroupValues scratch = s.grid.make_values();
-        s.grid.from_spectra(group, spectra, {}, planes, scratch);
+        s.grid.from_spectra(group, spectra, s.grid.band_count(), {}, planes, scratch);
         s.cube.scatter_group(group, planes, buffers);
     });
 }
