@@ -62,6 +62,10 @@ constexpr double kShown = 3, kNearDelta = 5e-4, kRounding = 2e-6;
 // Sums over a lobe that differ by less than this, in tolerances, count as equal.
 constexpr double kEvenness = 0.05;
 
+// So do all of them where half of the lobe's light takes more texels than this: they differ by the
+// square of that ratio, 3e-5 here.
+constexpr double kEvenFrom = 5;
+
 constexpr float kUnbounded = std::numeric_limits<float>::max();
 
 /// What is known of a source before its targets are made.
@@ -262,9 +266,14 @@ void PrefilterPlan::Plan::make_transforms() {
 // Divides by the lobes' own sums over the source, whose points and areas integrate no lobe quite to
 // one. Where the source is a panorama that sum depends on the latitude alone.
 void PrefilterPlan::Plan::normalise() {
-    const bool is_needed =
-        std::ranges::any_of(filtered_, [](const auto& f) { return f && f->whole_source_near; });
-    if (!analysis_ || !(is_needed || analysis_->on_rings())) return;
+    if (!analysis_) return;
+    bool is_uneven = analysis_->on_rings();
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        if (!filtered_[i]) continue;
+        const double half = targets_[i].lobe.angle_holding(0.5);
+        is_uneven = is_uneven || half < kEvenFrom * texel_angle(source_);
+    }
+    if (!is_uneven) return;
     EnvironmentMap white = make_environment_map(source_.projection, source_.size);
     for (Image& face : white.levels[0].faces) std::ranges::fill(face.values(), 1.0f);
     Harmonics ones(analysis_->band_count());
