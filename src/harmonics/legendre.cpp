@@ -19,7 +19,7 @@ LegendreTable::LegendreTable(int band_count)
     : band_count_(band_count),
       offsets_(static_cast<std::size_t>(band_count) + 1) {
     for (int m = 0; m < band_count; ++m) offsets_[m + 1] = offsets_[m] + step_count(m, band_count);
-    steps_.resize(offsets_.back());
+    steps_.resize(offsets_.back() + 1);  // analysis takes them in twos, one past the last at most
     scales_.resize(offsets_.back());
     log_first_.resize(band_count);
 
