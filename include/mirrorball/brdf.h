@@ -109,7 +109,8 @@ struct Banks {
 ///     G = 1 / (1 + Lambda(wi) + Lambda(wo)),       height-correlated, Smith 1967
 ///
 /// Reciprocal; reflects less than F of the light, since light that is scattered twice is lost
-/// (39 % with GGX at roughness 1). If both roughnesses are below 0.01 it is a mirror, and if one
+/// (59 % of uniform light with GGX at
+/// roughness 1). If both roughnesses are below 0.01 it is a mirror, and if one
 /// is, that counts as 0.01. Cook and Torrance 1982; Walter et al. 2007; Heitz 2014, "Understanding
 /// the Masking-Shadowing Function in Microfacet-Based BRDFs".
 struct Microfacet {

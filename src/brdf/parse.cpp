@@ -73,7 +73,7 @@ constexpr Preset kPresets[] = {
     {"car-paint", "plastic:reflectance=0.5/0.02/0.02,roughness=0,index=1.5",
      "red under clear coat"},
     {"clay", "oren-nayar:sigma=30,reflectance=0.55/0.35/0.25", "unglazed, flat as the full moon"},
-    {"velvet", "0.3/0.02/0.05*lambert + 0.7/0.1/0.2*charlie:roughness=0.4", "crimson"},
+    {"velvet", "0.25/0.02/0.05*lambert + 0.7/0.1/0.2*charlie:roughness=0.5", "crimson"},
     {"satin", "0.1/0.15/0.4*lambert + 0.3/0.35/0.5*banks:exponent=40", "blue, threads along x"},
     {"lacquered-copper", "ggx:roughness=0.2,metal=copper,coat=1.5", "a metal under varnish"},
     {"water", "mirror:index=1.333", "its surface"},

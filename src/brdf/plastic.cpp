@@ -30,9 +30,6 @@ class PlasticModel : public ModelOf<Plastic> {
             mean += albedo_[i] * (h * (2 * a + b) / 3) + albedo_[i + 1] * (h * (a + 2 * b) / 3);
         }
         mean_ = mean;
-        const double through = 1 - (mean_.x + mean_.y + mean_.z) / 3;
-        const double base = (p_.reflectance.x + p_.reflectance.y + p_.reflectance.z) / 3;
-        base_share_ = std::clamp(base * through / (base * through + 1 - through), 0.1, 0.9);
     }
 
     Vec3d evaluate(const Vec3d& wi, const Vec3d& wo) const override {
@@ -40,12 +37,14 @@ class PlasticModel : public ModelOf<Plastic> {
         return layer_->evaluate(wi, wo) + p_.reflectance * base / kPi;
     }
     double density(const Vec3d& wi, const Vec3d& wo) const override {
-        return (1 - base_share_) * layer_->density(wi, wo) + base_share_ * cosine_density(wi);
+        const double share = base_share(wo);
+        return (1 - share) * layer_->density(wi, wo) + share * cosine_density(wi);
     }
     Choice choose(const Vec3d& wo, const Vec3d& u) const override {
-        if (u.z < base_share_) return {cosine_direction(u.x, u.y)};
+        const double share = base_share(wo);
+        if (u.z < share) return {cosine_direction(u.x, u.y)};
         Choice choice = layer_->choose(wo, u);
-        choice.delta_weight /= 1 - base_share_;
+        choice.delta_weight /= 1 - share;
         return choice;
     }
     Vec3d mirror_reflectance(const Vec3d& wo) const override {
@@ -79,10 +78,16 @@ class PlasticModel : public ModelOf<Plastic> {
         return albedo_[left] * (1 - share) + albedo_[left + 1] * share;
     }
 
+    // Of the choices: as much as the base reflects of the whole, seen from wo.
+    [[nodiscard]] double base_share(const Vec3d& wo) const {
+        const Vec3d layer = albedo(wo.z), base = p_.reflectance * (Vec3d(1) - layer);
+        const double sum = base.x + base.y + base.z;
+        return std::clamp(sum / (sum + layer.x + layer.y + layer.z), 0.1, 0.9);
+    }
+
     ModelPointer layer_;
     std::array<Vec3d, kIntervalCount + 1> albedo_;
     Vec3d mean_;
-    double base_share_;
 };
 
 }  // namespace

@@ -16,31 +16,25 @@
 #include "brdf/directions.h"
 #include "brdf/lattice.h"
 #include "core/parallel.h"
-#include "prefilter/gauss_legendre.h"
 
 namespace mirrorball {
 namespace {
 
 using detail::lattice_point;
+using detail::lattice_point6;
+using detail::lattice_shift;
 using detail::spherical;
 
 constexpr int kSetCount = 8, kLeastCount = 256, kMostCount = 1 << 24;
 
-// The lattice's own directions keep the moves from adding up to another of its points.
-Vec3d move_of_set(int set) {
-    return {std::fmod(0.754877666 * set, 1.0), std::fmod(0.618033989 * set, 1.0),
-            std::fmod(0.414213562 * set, 1.0)};
-}
-
-// The mean of f over the cube.
+// The mean of f over sets of points, each of `count`.
 template <class F>
-Integral integrate_cube(int point_count, F&& f) {
-    const int count = std::max(1, point_count / kSetCount);
+Integral mean_of_sets(int count, F&& f) {
     std::array<Vec3d, kSetCount> means;
     Vec3d mean(0);
     for (int set = 0; set < kSetCount; ++set) {
         Vec3d sum(0);
-        for (int i = 0; i < count; ++i) sum += f(lattice_point(i, count, move_of_set(set)));
+        for (int i = 0; i < count; ++i) sum += f(set, i);
         means[set] = sum / count;
         mean += means[set] / kSetCount;
     }
@@ -48,6 +42,16 @@ Integral integrate_cube(int point_count, F&& f) {
     for (const Vec3d& m : means) square += (m - mean) * (m - mean);
     const double worst = std::max({square.x, square.y, square.z});
     return {mean, std::sqrt(worst / (kSetCount * (kSetCount - 1)))};
+}
+
+// The mean of f over the cube.
+template <class F>
+Integral integrate_cube(int point_count, F&& f) {
+    const int count = std::max(1, point_count / kSetCount);
+    return mean_of_sets(count, [&](int set, int i) {
+        return f(lattice_point(
+            i, count, {lattice_shift(set, 0), lattice_shift(set, 1), lattice_shift(set, 2)}));
+    });
 }
 
 // The share of light from wi that goes along samples drawn as if wi were the view: of a reciprocal
@@ -93,21 +97,19 @@ AlbedoPoint albedo_at(const Brdf& brdf, int angle, int point_count) {
     return point;
 }
 
-// A pair of directions: each spread by the cosine, or wi by the model's sampling for wo. The points
-// of the lattice are three numbers; a second lattice gives the other two.
+// A pair of directions: each spread by the cosine, or wi by the model's sampling for wo.
 struct Pair {
     Vec3d wi, wo;
     double turn;
 };
 
 Pair pair(const Brdf& brdf, int i, int count) {
-    const Vec3d u = lattice_point(i, count);
-    const Vec3d v = lattice_point(i, count, {0.5, 0.3, 0.7});
-    const Vec3d wo = detail::cosine_direction(u.x, u.y);
+    const auto u = lattice_point6(i, count);
+    const Vec3d wo = detail::cosine_direction(u[0], u[1]);
     const bool by_model = i % 2 == 1;
-    const Vec3d wi =
-        by_model ? brdf.sample(wo, {v.y, v.z, u.z}).direction : detail::cosine_direction(u.z, v.z);
-    return {wi, wo, 2 * kPi * v.y};
+    const Vec3d wi = by_model ? brdf.sample(wo, {u[2], u[3], u[4]}).direction
+                              : detail::cosine_direction(u[2], u[3]);
+    return {wi, wo, 2 * kPi * u[5]};
 }
 
 Vec3d turned(const Vec3d& w, double angle) {
@@ -188,19 +190,13 @@ Integral furnace_radiance(const Brdf& brdf, const Vec3d& wo, int point_count) {
 }
 
 Integral mean_albedo(const Brdf& brdf, int point_count) {
-    // Gauss points in the cosine, each with a part of the points and an azimuth of its own
-    constexpr int kNodeCount = 32;
-    Vec3d value(0);
-    double square = 0;
-    int i = 0;
-    for (const auto& [x, weight] : detail::gauss_legendre(kNodeCount)) {
-        const double cosine = (1 + x) / 2, share = weight * cosine;
-        const Vec3d wi = spherical(cosine, 2 * kPi * 0.618033989 * i++);
-        const Integral albedo = directional_albedo(brdf, wi, std::max(64, point_count / 8));
-        value += albedo.value * share;
-        square += share * share * albedo.error * albedo.error;
-    }
-    return {value, std::sqrt(square)};
+    const int count = std::max(1, point_count / kSetCount);
+    return mean_of_sets(count, [&](int set, int i) {
+        detail::SixNumbers shift;
+        for (int d = 0; d < 6; ++d) shift[d] = lattice_shift(set, d);
+        const auto u = lattice_point6(i, count, shift);
+        return scattered(brdf, detail::cosine_direction(u[0], u[1]), {u[2], u[3], u[4]});
+    });
 }
 
 const AlbedoPoint& BrdfProperties::brightest() const {
@@ -210,9 +206,10 @@ const AlbedoPoint& BrdfProperties::brightest() const {
 }
 
 bool BrdfProperties::conserves_energy() const {
-    // by rounding alone an albedo of 1 comes out a little above it
+    // an albedo of exactly 1 comes out on either side of it
+    constexpr double kTolerance = 1e-5;
     return std::all_of(albedo.begin(), albedo.end(), [](const AlbedoPoint& point) {
-        return largest(point.albedo.value) <= 1 + 1e-9 + 3 * point.albedo.error;
+        return largest(point.albedo.value) <= 1 + kTolerance + 3 * point.albedo.error;
     });
 }
 
