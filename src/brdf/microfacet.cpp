@@ -17,8 +17,11 @@ class MicrofacetModel : public ModelOf<Microfacet> {
 
     Vec3d evaluate(const Vec3d& wi, const Vec3d& wo) const override {
         const Vec3d h = half_vector(wi, wo);
-        const double shadowing = 1 / (1 + normals_.lambda(wi) + normals_.lambda(wo));
-        return p_.fresnel(wi.dot(h)) * (normals_.distribution(h) * shadowing / (4 * wi.z * wo.z));
+        // G / (wi.z wo.z) = 1 / (wi.z wo.z (1 + Lambda(wi) + Lambda(wo)))
+        const double area =
+            wi.z * wo.z + wo.z * normals_.lambda_z(wi) + wi.z * normals_.lambda_z(wo);
+        const double d = normals_.distribution(h);
+        return d > 0 ? p_.fresnel(wi.dot(h)) * (d / (4 * area)) : Vec3d(0);
     }
     double density(const Vec3d& wi, const Vec3d& wo) const override {
         const Vec3d h = half_vector(wi, wo);

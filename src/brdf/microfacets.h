@@ -14,15 +14,16 @@ struct Slopes {
 
     /// tan^2 of the angle to the normal over alpha^2 for this azimuth; h.z > 0.
     [[nodiscard]] double squared(const Vec3d& h) const {
-        const double x = h.x / alpha_x, y = h.y / alpha_y;
-        return (x * x + y * y) / (h.z * h.z);
+        const double x = h.x / (alpha_x * h.z), y = h.y / (alpha_y * h.z);
+        return x * x + y * y;
     }
-    /// (alpha tan(theta))^2 of a direction: 1/a^2 in the Smith terms.
+    /// The length of a direction's tangential part, stretched: alpha tan(theta) w.z.
     [[nodiscard]] double spread(const Vec3d& w) const {
-        const double x = w.x * alpha_x, y = w.y * alpha_y;
-        return (x * x + y * y) / (w.z * w.z);
+        return std::hypot(w.x * alpha_x, w.y * alpha_y);
     }
 };
+
+// Smith's Lambda comes times w.z, which keeps it finite at grazing angles.
 
 /// Normally distributed slopes. Beckmann and Spizzichino 1963; Walter et al. 2007.
 struct Beckmann {
@@ -36,12 +37,12 @@ struct Beckmann {
         return exponential > 0 ? exponential / (kPi * slopes.alpha_x * slopes.alpha_y * z2 * z2)
                                : 0;
     }
-    /// Smith's Lambda, exact for slopes that are independent of height.
-    [[nodiscard]] double lambda(const Vec3d& w) const {
+    /// w.z Lambda(w), with a = w.z / spread: w.z (exp(-a^2) / (2 a sqrt(pi)) - erfc(a) / 2).
+    [[nodiscard]] double lambda_z(const Vec3d& w) const {
         const double spread = slopes.spread(w);
         if (spread == 0) return 0;
-        const double a = 1 / std::sqrt(spread);
-        return std::exp(-a * a) / (2 * a * std::sqrt(kPi)) - std::erfc(a) / 2;
+        const double a = w.z / spread;
+        return spread * std::exp(-a * a) / (2 * std::sqrt(kPi)) - w.z * std::erfc(a) / 2;
     }
     /// Of density D(h) h.z.
     [[nodiscard]] Vec3d normal(double u, double v) const {
@@ -61,10 +62,10 @@ struct Ggx {
         const double sum = x * x + y * y + h.z * h.z;
         return h.z > 0 ? 1 / (kPi * slopes.alpha_x * slopes.alpha_y * sum * sum) : 0;
     }
-    [[nodiscard]] double lambda(const Vec3d& w) const {
-        // (sqrt(1 + s) - 1) / 2, without cancelling
+    /// w.z Lambda(w) = (sqrt(w.z^2 + spread^2) - w.z) / 2, without cancelling.
+    [[nodiscard]] double lambda_z(const Vec3d& w) const {
         const double spread = slopes.spread(w);
-        return spread / (2 * (std::sqrt(1 + spread) + 1));
+        return spread * spread / (2 * (std::hypot(w.z, spread) + w.z));
     }
     /// Of the density of normals that wo sees, D(h) max(0, wo.h) / (wo.z (1 + Lambda(wo))): a
     /// hemisphere as seen from wo, stretched. Dupuy and Benyoub 2023, "Sampling Visible GGX Normals
@@ -76,7 +77,7 @@ struct Ggx {
         return Vec3d(slopes.alpha_x * h.x, slopes.alpha_y * h.y, std::max(0.0, h.z)).normalized();
     }
     [[nodiscard]] double visible_density(const Vec3d& wo, const Vec3d& h) const {
-        return distribution(h) * std::max(0.0, wo.dot(h)) / (wo.z * (1 + lambda(wo)));
+        return distribution(h) * std::max(0.0, wo.dot(h)) / (wo.z + lambda_z(wo));
     }
 };
 

@@ -14,7 +14,7 @@
 namespace mirrorball::detail {
 namespace {
 
-constexpr int kIntervalCount = 32, kPointCount = 1024;
+constexpr int kIntervalCount = 96, kPointCount = 2048;
 
 class PlasticModel : public ModelOf<Plastic> {
   public:

@@ -16,10 +16,10 @@ class WardModel : public ModelOf<Ward> {
 
     Vec3d evaluate(const Vec3d& wi, const Vec3d& wo) const override {
         const Vec3d sum = wi + wo;
-        const double z2 = sum.z * sum.z;
+        const double hz = sum.z / sum.length();
         const double area = kPi * normals_.slopes.alpha_x * normals_.slopes.alpha_y;
         const double scale = p_.form == Ward::Form::bounded
-                                 ? sum.dot(sum) / (area * z2 * z2)
+                                 ? 1 / (area * hz * hz * sum.z * sum.z)
                                  : 1 / (4 * area * std::sqrt(wi.z * wo.z));
         // the slope is the same of h and of the sum that h is along
         const double exponential = std::exp(-normals_.slopes.squared(sum));
