@@ -155,7 +155,9 @@ struct Stages {
                        good_fourier_length(3 * band_count)};
     std::vector<double> lambda = zonal_coefficients(lobe, band_count);
     std::vector<double> power = squares(lambda);
-    CubeGrid cube{kSize, grid, power};
+    MapShape target{Projection::cube, kSize, default_axes(Projection::cube)};
+    std::unique_ptr<TexelGrid> texels =
+        make_texel_grid(target, grid, GridTaps(grid, power), GridUse::synthesis);
     std::vector<float> zonal{lambda.begin(), lambda.end()};
     std::vector<float> ring_weights = std::vector<float>(
         static_cast<std::size_t>(panorama.group_count()) * panorama.lane_count(), 1e-4f);
@@ -182,13 +184,13 @@ void fourier_analysis(const Stages& s, const EnvironmentMap& source, RingSpectra
     });
 }
 
-void fourier_synthesis(const Stages& s, const RingSpectra& spectra, CubeGrid::Buffers& buffers) {
+void fourier_synthesis(const Stages& s, const RingSpectra& spectra, TexelGrid::Buffer& buffer) {
     parallel_for(s.grid.group_count(), [&](std::int64_t i) {
         const int group = static_cast<int>(i);
         Planes planes = make_planes(s.grid);
         GroupValues scratch = s.grid.make_values();
         s.grid.from_spectra(group, spectra, s.grid.band_count(), {}, planes, scratch);
-        s.cube.scatter_group(group, planes, buffers);
+        s.texels->scatter_group(group, planes, buffer);
     });
 }
 
@@ -253,8 +255,8 @@ void stage_synthesis_fourier(benchmark::State& state) {
     const Stages s;
     RingSpectra spectra = s.grid.make_spectra();
     s.grid.synthesise(analysed(s), s.zonal, spectra);
-    CubeGrid::Buffers buffers = s.cube.make_buffers();
-    for (auto _ : state) fourier_synthesis(s, spectra, buffers);
+    TexelGrid::Buffer buffer = s.texels->make_buffer();
+    for (auto _ : state) fourier_synthesis(s, spectra, buffer);
     count_operations(state, fourier_operations(s.grid));
 }
 
@@ -264,16 +266,13 @@ void stage_texels(benchmark::State& state) {
     const Stages s;
     RingSpectra spectra = s.grid.make_spectra();
     s.grid.synthesise(analysed(s), s.zonal, spectra);
-    CubeGrid::Buffers buffers = s.cube.make_buffers();
-    fourier_synthesis(s, spectra, buffers);
+    TexelGrid::Buffer buffer = s.texels->make_buffer();
+    fourier_synthesis(s, spectra, buffer);
     EnvironmentMap result = make_environment_map(Projection::cube, Stages::kSize);
-    CubePlacement placement;
-    if (!place_cube(Stages::kSize, result.axes, placement))
-        return state.SkipWithError("a cube along the axes is not taken for one");
     constexpr float kBound = 1e30f;
     for (auto _ : state) {
-        s.cube.make_texels(buffers, placement, Vec3f(-kBound, -kBound, -kBound),
-                           Vec3f(kBound, kBound, kBound), result.levels[0].faces);
+        s.texels->make_texels(buffer, Vec3f(-kBound, -kBound, -kBound),
+                              Vec3f(kBound, kBound, kBound), result.levels[0].faces);
     }
     state.SetItemsProcessed(state.iterations() * texel_count(result));
     state.SetBytesProcessed(state.iterations() * texel_count(result) * 12);

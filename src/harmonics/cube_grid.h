@@ -1,29 +1,32 @@
-// Between rings of latitude and the faces of a cube.
+// Between rings of latitude and the faces of a cube whose axes lie along the grid's.
 //
-// Where a cube's axes lie along the grid's, its faces are four sides and two caps. On a side each
-// column of texels has one longitude: rings are interpolated along psi to those longitudes, and
-// then each texel along theta, eight taps twice. The texels of a cap take 8 x 8 taps at once; an
-// eighth of a cap has the positions and weights of all of it.
+// Such a cube has four sides and two caps, and looks the same after a quarter turn about the poles.
+// So the grid is four quadrants of columns, each about an axis that points to the middle of a side,
+// and what holds for a texel in one quadrant holds for the same texel of the other three: one set
+// of weights, sixteen values at a time.
 //
-// Analysis does the same backwards: it adds where synthesis reads, so that the sum over the grid is
-// the sum over the texels. Where it differs is a cap, whose texels at one distance a along the axis
-// of a quadrant lie on a line that crosses the grid's columns once each: they are added to points
-// where columns cross that line, and those then to rings. Adding, unlike reading, waits for itself,
-// and 8 + 8 additions wait less than 64.
+// Texels lie on lines: the rows of a side, and on a cap the rows across the quadrant's axis, from
+// the pole to the edge. A line is part of a great circle and crosses each column of its quadrant
+// once, at a *node*.
 //
-//     sides: [side][block of columns of texels][ring, those between the caps][column][RGBx]
-//     caps:  [north, south][4 rings beyond the pole, rings from the pole on][grid column, and the
-//            first eight again][RGBx]
+//        side: line v, v down                    cap: line a, from the pole to the edge
+//        |   |   |   |   |   columns              \ _|_ /
+//        o---o---o---o---o   nodes               o-o-o-o-o
+//        |   |   |   |   |                        \  |  /
+//        o-x-o-x-x-x-o-x-o   texels x         o-x--o-x-o--x-o
+//
+// Synthesis reads nodes from rings by eight taps along the column, then texels from nodes by eight
+// taps along the line. Analysis adds texels to nodes and nodes to rings by the same weights.
+//
+//     buffer: [4 rings beyond the north pole, rings, 4 beyond the south pole]
+//             [column off the quadrant's axis, from -reach to reach][quadrant][RGBx]
 #pragma once
 
 #include <array>
-#include <memory>
+#include <optional>
 #include <vector>
 
-#include <mirrorball/environment_map.h>
-
-#include "harmonics/ring_transform.h"
-#include "harmonics/taps.h"
+#include "harmonics/texel_grid.h"
 
 namespace mirrorball::detail {
 
@@ -38,93 +41,73 @@ struct FacePlacement {
 /// psi and v down; then the caps +y and -y, u along +x and v along +z.
 using CubePlacement = std::array<FacePlacement, 6>;
 
-/// If the map's axes lie along the grid's (by `to_grid`, from the map's own frame), where its faces
-/// are. \pre map.projection == cube
-[[nodiscard]] bool place_cube(int size, const Axes& map_in_grid, CubePlacement& placement);
+/// Of a cube map whose axes lie along the world's; of none other.
+[[nodiscard]] std::optional<CubePlacement> place_cube(const MapShape& shape);
 
-/// What every channel of a texel is clamped to.
-struct Range {
-    alignas(16) float lowest[4];
-    alignas(16) float highest[4];
-};
-
-/// Columns of texels of a side that lie together: a block's rings are on few pages, and stay in the
-/// cache while its texels are made.
-inline constexpr int kBlock = 32;
-/// Values from a ring of a block to the next: an odd number of cache lines, so that the eight rings
-/// of a texel do not fall on the same ones.
-inline constexpr std::ptrdiff_t kSideStride = 4 * kBlock + 16;
-
-/// A block of texels of one side, columns [u0, u1) and rows [v0, v1).
-struct Block {
-    int u0, u1, v0, v1;
-};
-
-/// Where the taps of texel (u, v) of a side's left half are: those of a block together.
-[[nodiscard]] inline std::size_t side_tap(int u, int v, int size) {
-    return (static_cast<std::size_t>(u / kBlock) * size + v) * kBlock + u % kBlock;
-}
-
-/// What a quadrant of a cap reads and writes.
-struct Quadrant {
-    int size, half, column_count, axis_column;
-    const TapList* rings;
-    const TapList* columns;
-    const TapList* line_rings;
-    int reach;           // columns to each side of the axis
-    std::size_t stride;  // values from a ring to the next
-};
-
-/// Positions and weights, for a grid and a size of face. The same for synthesis and analysis.
-class CubeGrid {
+class CubeGrid final : public TexelGrid {
   public:
-    /// `power` is that of the degrees to be interpolated, see TapDesign.
-    CubeGrid(int size, const RingTransform& rings, std::span<const double> power);
+    CubeGrid(int size, const CubePlacement& placement, const RingTransform& rings,
+             const GridTaps& taps, GridUse use);
 
-    struct Buffers {
-        ScratchArray sides, caps;
+    [[nodiscard]] Buffer make_buffer() const override;
+    void scatter_group(int group, const std::array<GroupValues, 3>& planes,
+                       Buffer& buffer) const override;
+    void make_texels(Buffer& buffer, const Vec3f& lowest, const Vec3f& highest,
+                     std::vector<Image>& faces) const override;
+    void spread_texels(const std::vector<Image>& faces, Buffer& buffer) const override;
+    void gather_group(int group, const Buffer& buffer,
+                      std::array<GroupValues, 3>& planes) const override;
+
+    /// The same line of texels in each of the four quadrants.
+    struct Line {
+        // Taps of the nodes |c| columns off the axis, on rings.
+        const std::int32_t* node_first;
+        const float* node_weights;
+        bool from_south;  // rings are counted from the south pole
+
+        // Taps of the texels, on nodes.
+        int count;
+        const std::int32_t* first;
+        const float* weights;
+
+        const float* solid_angles;
+        struct Place {
+            int face;
+            std::ptrdiff_t begin, step;
+        };
+        std::array<Place, 4> places;
     };
-    [[nodiscard]] Buffers make_buffers() const;
-
-    // Synthesis: every group of rings, in any order, then the texels.
-
-    void scatter_group(int group, const std::array<GroupValues, 3>& planes, Buffers& buffers) const;
-    /// Clamps every channel to [lowest, highest].
-    void make_texels(Buffers& buffers, const CubePlacement& placement, const Vec3f& lowest,
-                     const Vec3f& highest, std::vector<Image>& faces) const;
-
-    // Analysis: the texels, each times its solid angle, then every group.
-
-    void spread_texels(const std::vector<Image>& faces, const CubePlacement& placement,
-                       Buffers& buffers) const;
-    void gather_group(int group, const Buffers& buffers, std::array<GroupValues, 3>& planes) const;
 
   private:
-    struct QuadrantPlacement {
-        int face;
-        std::ptrdiff_t middle, along, across;
-    };
-    [[nodiscard]] QuadrantPlacement place_quadrant(int cap, int quadrant,
-                                                   const CubePlacement& placement) const;
-    // Where column u of texels of a side is on the first ring.
-    [[nodiscard]] std::size_t side_offset(int side, int u) const;
-    [[nodiscard]] int first_group() const { return first_side_ring_ / lane_count_; }
+    void place_sides(const GridTaps& taps);
+    void place_caps(const GridTaps& taps);
+    void weigh_texels();
+    [[nodiscard]] Line line(int i) const;
+    [[nodiscard]] int line_count() const { return size_ + 2 * half_; }
     [[nodiscard]] double coordinate(int i) const { return (2.0 * i + 1 - size_) / size_; }
+    [[nodiscard]] int node_count() const { return 2 * reach_ + 1; }
+    [[nodiscard]] std::size_t buffer_row(int ring) const;
+    [[nodiscard]] std::size_t first_row(const Line& line) const;
+    [[nodiscard]] std::ptrdiff_t row_step(const Line& line) const;
+    [[nodiscard]] ScratchArray make_nodes(int line_count) const;
+    [[nodiscard]] std::size_t node_row(int line) const {
+        return 16 * static_cast<std::size_t>(line) * node_count();
+    }
+    template <class F>
+    void for_each_pair_beyond_poles(const F& f) const;
 
     std::shared_ptr<ScratchPool> scratch_;
-    int size_, half_;  // half_: texels from the middle of a face out
-    int ring_count_, column_count_, lane_count_, group_count_;
-    int first_side_ring_, cap_group_count_;
-    int side_ring_count_, cap_ring_count_;
-    std::size_t cap_stride_;                 // values from a ring to the next
-    std::vector<std::size_t> side_offsets_;  // [side][u]
-    TapList side_columns_;                   // [u], grid columns from the side's middle
-    TapList side_rings_;                     // at side_tap(u, v), from the first side ring
-    TapList cap_rings_;                      // [a][b], 0 <= b <= a, from the first ring
-    TapList cap_columns_;                    // the same, columns off the quadrant's axis
-    int reach_;                              // columns to each side of a quadrant's axis
-    TapList line_rings_;                     // [a][column off the axis], where it crosses line a
-    std::vector<float> solid_angles_;        // [|v|][|u|], from the middle out
+    CubePlacement placement_;
+    int size_, half_;  // half_: lines of a cap's quadrant
+    int ring_count_, column_count_, lane_count_;
+    int reach_;                            // columns to each side of a quadrant's axis
+    std::size_t stride_;                   // values from a ring to the next
+    TapList side_nodes_, cap_nodes_;       // [line][|column off the axis|]
+    TapList side_texels_;                  // [u]: the same on all lines
+    TapList cap_texels_;                   // [line][across]
+    std::vector<std::size_t> cap_begins_;  // where each line of a cap begins among its texels
+    std::vector<float> solid_angles_;      // [rows from the middle out][u]
+    float pole_share_ = 0;                 // of a texel at the pole, in each quadrant
 };
 
 }  // namespace mirrorball::detail

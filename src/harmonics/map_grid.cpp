@@ -55,8 +55,8 @@ void spread_texel(const float* texel, float solid_angle, float* to, int first_co
     }
 }
 
-// The rings in the lanes of a group, to the columns of the grid. `north` and `south` are the
-// group's rings on column 0.
+// The rings in the lanes of a group, to the columns of the grid and back. `north` is the first of
+// them on column 0, `south` the mate of the last.
 void scatter_rings(const float* const* planes, int column_count, float* north, float* south,
                    std::size_t stride) {
     const Lanes d;
@@ -66,6 +66,23 @@ void scatter_rings(const float* const* planes, int column_count, float* north, f
         hn::StoreInterleaved4(r.re, g.re, b.re, zero, d, north + k * stride * 4);
         hn::StoreInterleaved4(hn::Reverse(d, r.im), hn::Reverse(d, g.im), hn::Reverse(d, b.im),
                               zero, d, south + k * stride * 4);
+    }
+}
+
+void gather_rings(const float* north, const float* south, int column_count, std::size_t stride,
+                  float* const* planes) {
+    const Lanes d;
+    const std::size_t n = hn::Lanes(d);
+    for (int k = 0; k < column_count; ++k) {
+        Vec r, g, b, unused;
+        hn::LoadInterleaved4(d, north + k * stride * 4, r, g, b, unused);
+        hn::Store(r, d, planes[0] + 2 * n * k);
+        hn::Store(g, d, planes[1] + 2 * n * k);
+        hn::Store(b, d, planes[2] + 2 * n * k);
+        hn::LoadInterleaved4(d, south + k * stride * 4, r, g, b, unused);
+        hn::Store(hn::Reverse(d, r), d, planes[0] + 2 * n * k + n);
+        hn::Store(hn::Reverse(d, g), d, planes[1] + 2 * n * k + n);
+        hn::Store(hn::Reverse(d, b), d, planes[2] + 2 * n * k + n);
     }
 }
 
@@ -80,20 +97,20 @@ namespace {
 HWY_EXPORT(make_texel);
 HWY_EXPORT(spread_texel);
 HWY_EXPORT(scatter_rings);
+HWY_EXPORT(gather_rings);
 
 constexpr int kBeyondPole = 4;  // rings
 constexpr std::int64_t kTexelsPerTask = 2048;
 
 }  // namespace
 
-MapGrid::MapGrid(const EnvironmentMap& shape, const RingTransform& rings,
-                 std::span<const double> power)
+MapGrid::MapGrid(const MapShape& shape, const RingTransform& rings, const GridTaps& taps)
     : scratch_(rings.scratch()),
       ring_count_(rings.ring_count()),
       column_count_(rings.column_count()),
       lane_count_(rings.lane_count()),
       stride_(static_cast<std::size_t>(ring_count_ + 2 * kBeyondPole)) {
-    const int width = shape.width(), height = shape.height();
+    const int width = shape.size, height = shape.size / aspect(shape.projection);
     const std::vector<double> solid_angles = solid_angle_table(shape.projection, width, height);
     struct Position {
         double ring, column;
@@ -134,13 +151,11 @@ MapGrid::MapGrid(const EnvironmentMap& shape, const RingTransform& rings,
         texels_[to] = texels[i], sorted[to] = positions[i];
     }
 
-    const TapDesign across_rings(power, kPi / ring_count_);
-    const TapDesign along_rings(power, 2 * kPi / column_count_);
     rings_ = TapList(texels_.size());
     columns_ = TapList(texels_.size());
     for (std::size_t i = 0; i < texels_.size(); ++i) {
-        rings_.set(i, sorted[i].ring + kBeyondPole, across_rings);
-        columns_.set(i, sorted[i].column + column_count_, along_rings);
+        rings_.set(i, sorted[i].ring + kBeyondPole, taps.along_columns);
+        columns_.set(i, sorted[i].column + column_count_, taps.along_rings);
     }
 }
 
@@ -217,9 +232,13 @@ void MapGrid::spread_texels(const std::vector<Image>& faces, Buffer& buffer) con
     }
 }
 
-void MapGrid::gather_group(int group, const RingTransform& rings, const Buffer& buffer,
+void MapGrid::gather_group(int group, const Buffer& buffer,
                            std::array<GroupValues, 3>& planes) const {
-    rings.load_columns(group, buffer.data() + 4 * kBeyondPole, stride_, planes);
+    float* const to[3] = {planes[0].data(), planes[1].data(), planes[2].data()};
+    const int ring = group * lane_count_;
+    const float* const rings = buffer.data() + 4 * kBeyondPole;
+    HWY_DYNAMIC_DISPATCH(gather_rings)
+    (rings + 4 * ring, rings + 4 * (ring_count_ - ring - lane_count_), column_count_, stride_, to);
 }
 
 }  // namespace mirrorball::detail

@@ -7,31 +7,22 @@
 #include <array>
 #include <vector>
 
-#include <mirrorball/environment_map.h>
-
-#include "harmonics/ring_transform.h"
-#include "harmonics/taps.h"
+#include "harmonics/texel_grid.h"
 
 namespace mirrorball::detail {
 
-class MapGrid {
+class MapGrid final : public TexelGrid {
   public:
-    /// For level 0 of maps like `shape`; the grid's frame is the world. `power` as in TapDesign.
-    MapGrid(const EnvironmentMap& shape, const RingTransform& rings, std::span<const double> power);
+    MapGrid(const MapShape& shape, const RingTransform& rings, const GridTaps& taps);
 
-    using Buffer = ScratchArray;
-    [[nodiscard]] Buffer make_buffer() const;
-
-    // Synthesis: every group of rings, then the texels.
-    void scatter_group(int group, const std::array<GroupValues, 3>& planes, Buffer& buffer) const;
-    /// Clamps every channel to [lowest, highest].
+    [[nodiscard]] Buffer make_buffer() const override;
+    void scatter_group(int group, const std::array<GroupValues, 3>& planes,
+                       Buffer& buffer) const override;
     void make_texels(Buffer& buffer, const Vec3f& lowest, const Vec3f& highest,
-                     std::vector<Image>& faces) const;
-
-    // Analysis: the texels, each times its solid angle, then every group.
-    void spread_texels(const std::vector<Image>& faces, Buffer& buffer) const;
-    void gather_group(int group, const RingTransform& rings, const Buffer& buffer,
-                      std::array<GroupValues, 3>& planes) const;
+                     std::vector<Image>& faces) const override;
+    void spread_texels(const std::vector<Image>& faces, Buffer& buffer) const override;
+    void gather_group(int group, const Buffer& buffer,
+                      std::array<GroupValues, 3>& planes) const override;
 
   private:
     struct Texel {

@@ -130,24 +130,6 @@ void load_rows(const float* const* rows, std::size_t width, float* const* planes
     }
 }
 
-// `north` is the first of a group's rings on column 0, `south` the mate of its last.
-void load_columns(const float* north, const float* south, std::size_t stride, std::size_t width,
-                  float* const* planes) {
-    const Lanes d;
-    const std::size_t n = hn::Lanes(d);
-    for (std::size_t x = 0; x < width; ++x) {
-        Vec r, g, b, unused;
-        hn::LoadInterleaved4(d, north + x * stride, r, g, b, unused);
-        hn::Store(r, d, planes[0] + 2 * n * x);
-        hn::Store(g, d, planes[1] + 2 * n * x);
-        hn::Store(b, d, planes[2] + 2 * n * x);
-        hn::LoadInterleaved4(d, south + x * stride, r, g, b, unused);
-        hn::Store(hn::Reverse(d, r), d, planes[0] + 2 * n * x + n);
-        hn::Store(hn::Reverse(d, g), d, planes[1] + 2 * n * x + n);
-        hn::Store(hn::Reverse(d, b), d, planes[2] + 2 * n * x + n);
-    }
-}
-
 // Transforms one channel of a group and unpacks north + i south into even and odd parts.
 void to_spectra(const FourierPlan& plan, const Columns& columns, const float* weights,
                 const double* x, int channel, int order_count, float* values, float* scratch,
@@ -304,7 +286,6 @@ namespace {
 HWY_EXPORT(lane_count);
 HWY_EXPORT(find_seeds);
 HWY_EXPORT(load_rows);
-HWY_EXPORT(load_columns);
 HWY_EXPORT(to_spectra);
 HWY_EXPORT(analyse_order);
 HWY_EXPORT(synthesise_order);
@@ -382,15 +363,6 @@ void RingTransform::load_rows(int group, const float* rows,
     }
     float* const to[3] = {planes[0].data(), planes[1].data(), planes[2].data()};
     HWY_DYNAMIC_DISPATCH(load_rows)(pointers.data(), column_count(), to);
-}
-
-void RingTransform::load_columns(int group, const float* columns, std::size_t stride,
-                                 std::array<GroupValues, 3>& planes) const {
-    const std::size_t first = static_cast<std::size_t>(group) * lane_count_;
-    float* const to[3] = {planes[0].data(), planes[1].data(), planes[2].data()};
-    HWY_DYNAMIC_DISPATCH(load_columns)
-    (columns + first * 4, columns + (ring_count_ - first - lane_count_) * 4, stride * 4,
-     column_count(), to);
 }
 
 void RingTransform::to_spectra(int group, std::array<GroupValues, 3>& planes, GroupValues& scratch,

@@ -66,9 +66,6 @@ class RingTransform {
 
     /// Interleaved rows of RGB, top row (north) first, into three planes of a group.
     void load_rows(int group, const float* rows, std::array<GroupValues, 3>& planes) const;
-    /// Columns of RGBx values [column][stride][4], whose ring 0 is at `columns`.
-    void load_columns(int group, const float* columns, std::size_t stride,
-                      std::array<GroupValues, 3>& planes) const;
     /// Fourier transform of one group; `ring_weights` multiplies each pair of rings. Overwrites
     /// the planes.
     void to_spectra(int group, std::array<GroupValues, 3>& planes, GroupValues& scratch,

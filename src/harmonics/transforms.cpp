@@ -14,6 +14,8 @@ namespace {
 // bands can have it for nothing.
 constexpr double kOversampling = 1.5, kMoreOversampling = 2.2, kMostOversampling = 3;
 constexpr int kFewBands = 160;
+// Eight taps along a line of a cube shall not bend far away from a ring.
+constexpr int kLeastColumns = 128;
 constexpr double kMostAtEdge = 1e-5;  // of the power, in the last quarter of the bands
 
 double oversampling_for(std::span<const double> power) {
@@ -32,7 +34,8 @@ RingTransform grid_transform(std::shared_ptr<const LegendreTable> table, int ban
     const double values = oversampling * band_count;
     const int whole = 2 * ring_lane_count();
     const int ring_count = (std::max(32, static_cast<int>(std::ceil(values))) + whole - 1) / whole;
-    const int column_count = good_fourier_length(std::max(64, static_cast<int>(2 * values)));
+    const int column_count =
+        good_fourier_length(std::max(kLeastColumns, static_cast<int>(2 * values)));
     return RingTransform(std::move(table), band_count, ring_count * whole, column_count,
                          std::move(scratch));
 }
@@ -60,12 +63,6 @@ std::array<GroupValues, 3> make_planes(const RingTransform& rings) {
     return {rings.make_values(), rings.make_values(), rings.make_values()};
 }
 
-EnvironmentMap empty_map(const MapShape& shape) {
-    EnvironmentMap map = make_environment_map(shape.projection, shape.size);
-    map.axes = shape.axes;
-    return map;
-}
-
 }  // namespace
 
 AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const LegendreTable> table,
@@ -91,20 +88,13 @@ AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const Legendre
                                   std::move(scratch)));
     ring_weights_.assign(static_cast<std::size_t>(rings_->group_count()) * rings_->lane_count(),
                          1.0f);
-    if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
-        cube_.emplace(shape.size, *rings_, power);
-    else
-        grid_.emplace(empty_map(shape), *rings_, power);
+    grid_ = make_texel_grid(shape, *rings_, GridTaps(*rings_, power), GridUse::analysis);
 }
 
 void AnalysisPlan::run(const std::vector<Image>& faces, Harmonics& harmonics) const {
     RingSpectra spectra = rings_->make_spectra();
-    CubeGrid::Buffers buffers;
-    MapGrid::Buffer buffer;
-    if (cube_) {
-        buffers = cube_->make_buffers();
-        cube_->spread_texels(faces, placement_, buffers);
-    } else if (grid_) {
+    TexelGrid::Buffer buffer;
+    if (grid_) {
         buffer = grid_->make_buffer();
         grid_->spread_texels(faces, buffer);
     }
@@ -113,10 +103,8 @@ void AnalysisPlan::run(const std::vector<Image>& faces, Harmonics& harmonics) co
         const int group = static_cast<int>(i);
         std::array<GroupValues, 3> planes = make_planes(*rings_);
         GroupValues scratch = rings_->make_values();
-        if (cube_)
-            cube_->gather_group(group, buffers, planes);
-        else if (grid_)
-            grid_->gather_group(group, *rings_, buffer, planes);
+        if (grid_)
+            grid_->gather_group(group, buffer, planes);
         else
             rings_->load_rows(group, faces.front().values().data(), planes);
         rings_->to_spectra(group, planes, scratch, columns_, ring_weights_, spectra);
@@ -130,23 +118,20 @@ SynthesisPlan::SynthesisPlan(const MapShape& shape, std::shared_ptr<const Legend
                              std::optional<double> oversampling)
     : shape_(shape),
       rings_(grid_transform(std::move(table), band_count,
-                            oversampling.value_or(oversampling_for(power)), std::move(scratch))) {
-    if (shape.projection == Projection::cube && place_cube(shape.size, shape.axes, placement_))
-        cube_.emplace(shape.size, *rings_, power);
-    else
-        grid_.emplace(empty_map(shape), *rings_, power);
-}
+                            oversampling.value_or(oversampling_for(power)), std::move(scratch))),
+      taps_(rings_, power),
+      grid_(make_texel_grid(shape, rings_, taps_, GridUse::synthesis)) {}
 
 std::vector<double> SynthesisPlan::pair_colatitudes() const {
-    std::vector<double> colatitudes(rings_->ring_count() / 2);
+    std::vector<double> colatitudes(rings_.ring_count() / 2);
     for (std::size_t j = 0; j < colatitudes.size(); ++j)
-        colatitudes[j] = (static_cast<double>(j) + 0.5) * kPi / rings_->ring_count();
+        colatitudes[j] = (static_cast<double>(j) + 0.5) * kPi / rings_.ring_count();
     return colatitudes;
 }
 
-std::vector<double> SynthesisPlan::wave_errors(std::span<const double> power) const {
-    const double step = kPi / rings_->ring_count();
-    std::vector<double> errors = TapDesign(power, step).wave_errors(step, rings_->band_count());
+std::vector<double> SynthesisPlan::wave_errors() const {
+    const double step = kPi / rings_.ring_count();
+    std::vector<double> errors = taps_.along_columns.wave_errors(step, rings_.band_count());
     for (double& e : errors) e *= std::sqrt(2.0);  // along both directions
     return errors;
 }
@@ -154,30 +139,19 @@ std::vector<double> SynthesisPlan::wave_errors(std::span<const double> power) co
 void SynthesisPlan::run(const Harmonics& harmonics, std::span<const float> zonal,
                         std::span<const float> ring_weights, const Vec3f& lowest,
                         const Vec3f& highest, std::vector<Image>& faces) const {
-    RingSpectra spectra = rings_->make_spectra();
-    rings_->synthesise(harmonics, zonal, spectra);
-    CubeGrid::Buffers buffers;
-    MapGrid::Buffer buffer;
-    if (cube_)
-        buffers = cube_->make_buffers();
-    else
-        buffer = grid_->make_buffer();
-    parallel_for(rings_->group_count(), [&](std::int64_t i) {
+    RingSpectra spectra = rings_.make_spectra();
+    rings_.synthesise(harmonics, zonal, spectra);
+    TexelGrid::Buffer buffer = grid_->make_buffer();
+    parallel_for(rings_.group_count(), [&](std::int64_t i) {
         const FlushDenormals flush;
         const int group = static_cast<int>(i);
-        std::array<GroupValues, 3> planes = make_planes(*rings_);
-        GroupValues scratch = rings_->make_values();
-        rings_->from_spectra(group, spectra, static_cast<int>(zonal.size()), ring_weights, planes,
-                             scratch);
-        if (cube_)
-            cube_->scatter_group(group, planes, buffers);
-        else
-            grid_->scatter_group(group, planes, buffer);
+        std::array<GroupValues, 3> planes = make_planes(rings_);
+        GroupValues scratch = rings_.make_values();
+        rings_.from_spectra(group, spectra, static_cast<int>(zonal.size()), ring_weights, planes,
+                            scratch);
+        grid_->scatter_group(group, planes, buffer);
     });
-    if (cube_)
-        cube_->make_texels(buffers, placement_, lowest, highest, faces);
-    else
-        grid_->make_texels(buffer, lowest, highest, faces);
+    grid_->make_texels(buffer, lowest, highest, faces);
 }
 
 }  // namespace mirrorball::detail

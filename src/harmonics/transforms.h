@@ -7,9 +7,8 @@
 
 #include <mirrorball/harmonics.h>
 
-#include "harmonics/cube_grid.h"
-#include "harmonics/map_grid.h"
 #include "harmonics/ring_transform.h"
+#include "harmonics/texel_grid.h"
 
 namespace mirrorball::detail {
 
@@ -31,7 +30,7 @@ class AnalysisPlan {
     [[nodiscard]] const MapShape& shape() const { return shape_; }
     [[nodiscard]] int band_count() const { return band_count_; }
     /// Is the map itself the grid of rings?
-    [[nodiscard]] bool on_rings() const { return !cube_ && !grid_; }
+    [[nodiscard]] bool on_rings() const { return !grid_; }
 
   private:
     MapShape shape_;
@@ -39,9 +38,7 @@ class AnalysisPlan {
     std::optional<RingTransform> rings_;
     Columns columns_;
     std::vector<float> ring_weights_;
-    CubePlacement placement_{};
-    std::optional<CubeGrid> cube_;
-    std::optional<MapGrid> grid_;
+    std::unique_ptr<TexelGrid> grid_;  // none where the map is the grid
 };
 
 /// Coefficients to the texels of a map.
@@ -54,13 +51,13 @@ class SynthesisPlan {
                   std::optional<double> oversampling = {});
 
     [[nodiscard]] const MapShape& shape() const { return shape_; }
-    [[nodiscard]] int band_count() const { return rings_->band_count(); }
+    [[nodiscard]] int band_count() const { return rings_.band_count(); }
     /// Colatitudes of the pairs of rings that `ring_weights` of run() multiplies.
     [[nodiscard]] std::vector<double> pair_colatitudes() const;
 
     /// Of each degree, the relative error that interpolation on the grid makes of it, in root mean
-    /// square. \pre `power` is what the plan was made with
-    [[nodiscard]] std::vector<double> wave_errors(std::span<const double> power) const;
+    /// square.
+    [[nodiscard]] std::vector<double> wave_errors() const;
 
     /// Degree l is multiplied by zonal[l]; those without a factor are left out, and cost nothing.
     /// Texels are clamped to [lowest, highest] per channel. \pre zonal.size() is at most
@@ -71,10 +68,9 @@ class SynthesisPlan {
 
   private:
     MapShape shape_;
-    std::optional<RingTransform> rings_;
-    CubePlacement placement_{};
-    std::optional<CubeGrid> cube_;
-    std::optional<MapGrid> grid_;
+    RingTransform rings_;
+    GridTaps taps_;
+    std::unique_ptr<TexelGrid> grid_;
 };
 
 }  // namespace mirrorball::detail

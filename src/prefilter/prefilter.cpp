@@ -255,7 +255,7 @@ void PrefilterPlan::Plan::make_transforms() {
         const std::vector<double> power = squares(f->split.far);
         f->synthesis.emplace(MapShape{target.projection, target.size, target.axes}, table,
                              static_cast<int>(f->far.size()), power, scratch);
-        f->waves = f->synthesis->wave_errors(power);
+        f->waves = f->synthesis->wave_errors();
         f->lambda = zonal_coefficients(target.lobe, band_count);
         double kept = 0;
         for (int l = 0; l < band_count; ++l) kept += (2 * l + 1) * f->lambda[l] * f->lambda[l];
