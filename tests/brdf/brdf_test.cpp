@@ -319,8 +319,8 @@ TEST(Brdf, LawsKeptAndBroken) {
     const Integral mean = mean_albedo(parse_brdf("phong:1e6"), 1 << 16);
     EXPECT_NEAR(mean.value.x, 2.0 / 3, 4 * mean.error + 1e-5);
     EXPECT_LT(mean.error, 1e-3);
-    EXPECT_THROW(measure_brdf(Brdf(), {.pair_count = 1, .point_count = 4096}), Error);
-    EXPECT_THROW(measure_brdf(Brdf(), {.pair_count = 4096, .point_count = 0}), Error);
+    EXPECT_THROW((void)measure_brdf(Brdf(), {.pair_count = 1, .point_count = 4096}), Error);
+    EXPECT_THROW((void)measure_brdf(Brdf(), {.pair_count = 4096, .point_count = 0}), Error);
 }
 
 }  // namespace
