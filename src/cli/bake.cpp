@@ -13,7 +13,6 @@
 #include "batch.h"
 #include "chain.h"
 #include "interrupt.h"
-#include "io/file.h"
 #include "verbs.h"
 
 namespace mirrorball::cli {
@@ -33,12 +32,6 @@ std::vector<Lobe> parse_exponents(const std::string& text) {
     std::vector<Lobe> lobes;
     for (const double exponent : exponents) lobes.push_back({Lobe::Kind::phong, exponent});
     return lobes;
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    detail::OutputFile file(path);
-    file.write(text);
-    file.commit();
 }
 
 void write_json(const std::filesystem::path& path, const Json& json) {

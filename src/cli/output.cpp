@@ -11,6 +11,7 @@
 #include <mirrorball/error.h>
 
 #include "interrupt.h"
+#include "io/file.h"
 #include "options.h"
 
 namespace mirrorball::cli {
@@ -57,6 +58,12 @@ void print(const std::string& text) {
     if (!written || std::fflush(stdout) != 0) {
         throw Error(Errc::cannot_write, fmt::format("standard output: {}", std::strerror(errno)));
     }
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    detail::OutputFile file(path);
+    file.write(text);
+    file.commit();
 }
 
 // Names of files need not be UTF-8; what is not is shown by a replacement character.

@@ -1,6 +1,7 @@
 // What the program says: results on stdout, everything else on stderr.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -18,6 +19,9 @@ using Json = nlohmann::ordered_json;  // keys stay in the order in which they we
 /// A verb's result. \throws Error(Errc::cannot_write) if stdout does not take it
 void print(const std::string& text);
 void print_json(const Json& json);
+
+/// A file of text, whole or not at all. \throws Error(Errc::cannot_write)
+void write_text(const std::filesystem::path& path, const std::string& text);
 
 /// What the program says of an error, and the exit code that stands for it.
 struct Failure {

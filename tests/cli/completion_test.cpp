@@ -39,6 +39,8 @@ TEST(Completion, OffersVerbsOptionsAndValues) {
     expect_offer("mirrorball info --axes bl", "blender");
     expect_offer("mirrorball sky s", "sunset");
     expect_offer("mirrorball irradiance-sh a.hdr --scale t", "three.js");
+    expect_offer("mirrorball brdf brushed-g", "brushed-gold");
+    expect_offer("mirrorball fresnel metal=", "metal=gold");
     expect_offer("mirrorball completion ", "bash");
     EXPECT_EQ(completed("mirrorball convert a.hdr --to oct").find("cube"), std::string::npos);
 }
