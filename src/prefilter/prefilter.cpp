@@ -265,7 +265,7 @@ Choice PrefilterPlan::Plan::choose_lights(const FilteredTarget& target, Source& 
         break;
     }
     if (unlit > kGoodUnlit * tolerance_) {
-        std::size_t level = choice.light_level.value_or(LightLevels::kUsual);
+        std::size_t level = choice.light_level.value_or(LightLevels::kThresholds.size() - 1);
         while (level > 0 && unlit * lights.rest(level) > kGood * tolerance_ * lights.deviation())
             --level;
         if (lights.any(level)) choice.light_level = level;

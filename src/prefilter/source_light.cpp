@@ -195,12 +195,17 @@ const NearField& LightLevels::field(std::size_t level) {
 }
 
 double LightLevels::deviation() {
-    return deviation_from_usual(kInfinity);
+    if (!deviation_) deviation_ = deviation_from_usual(kInfinity);
+    return *deviation_;
 }
 
 double LightLevels::rest(std::size_t level) {
-    if (level >= kUsual) return deviation_from_usual(threshold(level));
-    return deviation_of(moments_below(threshold(level))) / mean_;
+    std::optional<double>& rest = levels_[level].rest;
+    if (!rest) {
+        rest = level >= kUsual ? deviation_from_usual(threshold(level))
+                               : deviation_of(moments_below(threshold(level))) / mean_;
+    }
+    return *rest;
 }
 
 double LightLevels::deviation_from_usual(float limit) {

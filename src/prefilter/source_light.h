@@ -30,7 +30,7 @@ struct SourceRange {
 /// what is left has no lights, and no new edges either. All is found when it is first asked for.
 class LightLevels {
   public:
-    static constexpr std::array<float, 8> kThresholds = {0, 1.5, 6, 24, 48, 96, 192, 384};
+    static constexpr std::array<float, 9> kThresholds = {0, 1.5, 6, 24, 48, 96, 192, 384, 1536};
     /// Lights at this level and above take one pass over the source, all together.
     static constexpr std::size_t kUsual = 3;
 
@@ -67,9 +67,11 @@ class LightLevels {
     struct Level {
         std::optional<std::vector<Light>> lights;
         std::optional<NearField> field;
+        std::optional<double> rest;
     };
     std::array<Level, kThresholds.size()> levels_;
     std::optional<Moments> usual_moments_;
+    std::optional<double> deviation_;
 };
 
 }  // namespace mirrorball::detail
