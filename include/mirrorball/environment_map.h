@@ -51,6 +51,8 @@ struct MapShape {
     bool operator==(const MapShape&) const = default;
 };
 [[nodiscard]] MapShape shape_of(const EnvironmentMap& map);
+/// The same in the shape's axes.
+[[nodiscard]] EnvironmentMap make_environment_map(const MapShape& shape);
 
 /// Bytes that such a map holds, to check against a limit before making it.
 [[nodiscard]] std::uint64_t environment_map_bytes(Projection projection, std::int64_t size);

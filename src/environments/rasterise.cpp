@@ -232,8 +232,7 @@ double Disc::solid_angle() const {
 
 EnvironmentMap rasterise(const Environment& environment, Projection projection, int size,
                          const Axes& axes, const Progress& progress) {
-    EnvironmentMap map = make_environment_map(projection, size);
-    map.axes = axes;
+    EnvironmentMap map = make_environment_map({projection, size, axes});
     visit(projection, [&]<class P>(P) { Rasteriser<P>(environment, map).run(progress); });
     return map;
 }

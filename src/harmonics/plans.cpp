@@ -121,8 +121,7 @@ HarmonicSynthesis::HarmonicSynthesis(const MapShape& shape, int band_count, cons
 }
 
 EnvironmentMap HarmonicSynthesis::operator()(const Harmonics& harmonics) const {
-    EnvironmentMap map = make_environment_map(shape().projection, shape().size);
-    map.axes = shape().axes;
+    EnvironmentMap map = make_environment_map(shape());
     (*this)(harmonics, std::vector<double>(band_count(), 1.0), map);
     return map;
 }

@@ -96,6 +96,12 @@ EnvironmentMap make_environment_map(Projection projection, int size) {
     return map;
 }
 
+EnvironmentMap make_environment_map(const MapShape& shape) {
+    EnvironmentMap map = make_environment_map(shape.projection, shape.size);
+    map.axes = shape.axes;
+    return map;
+}
+
 std::uint64_t environment_map_bytes(Projection projection, std::int64_t size) {
     const double texels = static_cast<double>(size) * static_cast<double>(size) /
                           aspect(projection) * face_count(projection);

@@ -434,8 +434,8 @@ EnvironmentMap reduced(RowReader& rows, int factor) {
         throw Error(Errc::usage, fmt::format("factor {}: a map of {} x {} is reduced by a divisor "
                                              "of its height",
                                              factor, rows.width(), rows.height()));
-    EnvironmentMap map = make_environment_map(Projection::equirect, rows.width() / factor);
-    map.axes = rows.axes();
+    EnvironmentMap map =
+        make_environment_map({Projection::equirect, rows.width() / factor, rows.axes()});
     map.levels[0].lobe = rows.lobe();
     Image& image = map.levels[0].faces[0];
 

@@ -6,19 +6,13 @@
 namespace mirrorball::detail {
 namespace {
 
-// Single precision, through a transform of a thousand terms.
-constexpr double kRounding = 1e-6;
-
-// Over what a map of a few texels shows of an error that is spread unevenly.
-constexpr double kMargin = 1.5;
-
 double square(double x) {
     return x * x;
 }
 
 }  // namespace
 
-double estimated_error(std::span<const double> spectrum, const ErrorTerms& terms) {
+double relative_error(std::span<const double> spectrum, const ErrorTerms& terms) {
     double result = 0, error = 0;
     for (std::size_t l = 0; l < spectrum.size(); ++l) {
         const double far = l < terms.far.size() ? terms.far[l] : 0;
@@ -35,7 +29,7 @@ double estimated_error(std::span<const double> spectrum, const ErrorTerms& terms
         coefficients += 2 * static_cast<double>(l) + 1;
     }
     error += terms.beyond * power / coefficients;
-    return result > 0 ? kMargin * std::sqrt(error / result) + kRounding : 0;
+    return result > 0 ? std::sqrt(error / result) : 0;
 }
 
 }  // namespace mirrorball::detail

@@ -14,7 +14,7 @@ struct ErrorTerms {
     double beyond;                   ///< sum over the degrees not in lambda of (2l+1) lambda_l^2
 };
 
-/// Relative: the error's rms over the result's.
-[[nodiscard]] double estimated_error(std::span<const double> spectrum, const ErrorTerms& terms);
+/// The error's rms over the result's, over the whole sphere and before rounding.
+[[nodiscard]] double relative_error(std::span<const double> spectrum, const ErrorTerms& terms);
 
 }  // namespace mirrorball::detail

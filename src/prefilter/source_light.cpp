@@ -83,30 +83,44 @@ RowRange range_of_row(std::span<const float> row, const double* solid_angles) {
     return range;
 }
 
-// Texels with a channel above `threshold`, as far as they are above it, or whole if it is none.
+bool any_above(const float* values, std::size_t count, float threshold) {
+    int any = 0;
+    for (std::size_t i = 0; i < count; ++i) any |= values[i] > threshold;
+    return any != 0;
+}
+
+// Texels with a channel above `limit`, as far as they are above it, or all of them, whole.
 std::vector<Light> lights_of(const EnvironmentMap& map, const std::vector<double>& solid_angles,
                              const SourceRange* range, std::optional<float> limit) {
-    const float threshold = limit.value_or(-kInfinity);
+    constexpr std::size_t kStretch = 16;
     const auto width = static_cast<std::size_t>(map.width());
     std::vector<std::vector<Light>> rows(row_count(map));
     visit(map.projection, [&](auto p) {
         using P = decltype(p);
+        const auto light = [&](std::int64_t i, int y, std::size_t x, const float* rgb) {
+            const double solid_angle = solid_angles[static_cast<std::size_t>(y) * width + x];
+            const FacePoint<double> centre{static_cast<int>(i / map.height()),
+                                           (static_cast<double>(x) + 0.5) / map.width(),
+                                           (y + 0.5) / map.height()};
+            Vec3f power;
+            for (int c = 0; c < 3; ++c) {
+                const float above = limit ? std::max(rgb[c] - *limit, 0.0f) : rgb[c];
+                power[c] = above * static_cast<float>(solid_angle);
+            }
+            return Light{Vec3f(map.axes.to_world(P::direction(centre))), power,
+                         static_cast<float>(solid_angle)};
+        };
         for_each_row(map, [&](std::int64_t i, const Image& image, int y) {
-            if (limit && !(range->rows[i] > threshold)) return;
-            for (std::size_t x = 0; x < width; ++x) {
-                const double solid_angle = solid_angles[static_cast<std::size_t>(y) * width + x];
-                const Vec3f rgb = image.rgb(static_cast<int>(x), y);
-                if (solid_angle == 0 || !(std::max({rgb.x, rgb.y, rgb.z}) > threshold)) continue;
-                const FacePoint<double> centre{static_cast<int>(i / map.height()),
-                                               (static_cast<double>(x) + 0.5) / map.width(),
-                                               (y + 0.5) / map.height()};
-                Vec3f power;
-                for (int c = 0; c < 3; ++c) {
-                    const float excess = limit ? std::max(rgb[c] - *limit, 0.0f) : rgb[c];
-                    power[c] = excess * static_cast<float>(solid_angle);
+            if (limit && !(range->rows[i] > *limit)) return;
+            const float* const row = image.row(y).data();
+            const double* const used = solid_angles.data() + static_cast<std::size_t>(y) * width;
+            for (std::size_t x0 = 0; x0 < width; x0 += kStretch) {
+                const std::size_t end = std::min(x0 + kStretch, width);
+                if (limit && !any_above(row + 3 * x0, 3 * (end - x0), *limit)) continue;
+                for (std::size_t x = x0; x < end; ++x) {
+                    if (used[x] > 0 && (!limit || any_above(row + 3 * x, 3, *limit)))
+                        rows[i].push_back(light(i, y, x, row + 3 * x));
                 }
-                rows[i].push_back({Vec3f(map.axes.to_world(P::direction(centre))), power,
-                                   static_cast<float>(solid_angle)});
             }
         });
     });
@@ -145,24 +159,79 @@ SourceRange range_of(const EnvironmentMap& map, const std::vector<double>& solid
     return range;
 }
 
-std::vector<Light> lights_above(const EnvironmentMap& map, const std::vector<double>& solid_angles,
-                                const SourceRange& range, float threshold) {
-    return lights_of(map, solid_angles, &range, threshold);
-}
-
 std::vector<Light> all_lights(const EnvironmentMap& map, const std::vector<double>& solid_angles) {
     return lights_of(map, solid_angles, nullptr, std::nullopt);
 }
 
-double deviation_below(const EnvironmentMap& map, const std::vector<double>& solid_angles,
-                       float threshold) {
-    const auto width = static_cast<std::size_t>(map.width());
-    struct Moments {
-        double first = 0, second = 0;
-    };
-    std::vector<Moments> rows(row_count(map));
-    for_each_row(map, [&](std::int64_t i, const Image& image, int y) {
-        const double* const row = solid_angles.data() + width * static_cast<std::size_t>(y);
+LightLevels::LightLevels(const EnvironmentMap& map, const std::vector<double>& solid_angles,
+                         const SourceRange& range, float mean)
+    : map_(map),
+      solid_angles_(solid_angles),
+      range_(range),
+      mean_(mean),
+      brightest_(std::max({range.highest.x, range.highest.y, range.highest.z})) {}
+
+const std::vector<Light>& LightLevels::lights(std::size_t level) {
+    std::optional<std::vector<Light>>& found = levels_[level].lights;
+    if (!found && level <= kUsual) {
+        found = lights_of(map_, solid_angles_, &range_, threshold(level));
+    } else if (!found) {
+        // of those that are above the usual threshold already
+        const float rise = threshold(level) - threshold(kUsual);
+        found.emplace();
+        for (Light light : lights(kUsual)) {
+            for (int c = 0; c < 3; ++c)
+                light.power[c] = std::max(light.power[c] - rise * light.solid_angle, 0.0f);
+            if (light.power != Vec3f(0.0f)) found->push_back(light);
+        }
+    }
+    return *found;
+}
+
+const NearField& LightLevels::field(std::size_t level) {
+    std::optional<NearField>& field = levels_[level].field;
+    if (!field) field.emplace(lights(level));
+    return *field;
+}
+
+double LightLevels::deviation() {
+    if (!deviation_) deviation_ = deviation_from_usual(kInfinity);
+    return *deviation_;
+}
+
+double LightLevels::rest(std::size_t level) {
+    std::optional<double>& rest = levels_[level].rest;
+    if (!rest) {
+        rest = level >= kUsual ? deviation_from_usual(threshold(level))
+                               : deviation_of(moments_below(threshold(level))) / mean_;
+    }
+    return *rest;
+}
+
+double LightLevels::deviation_from_usual(float limit) {
+    const float usual = threshold(kUsual);
+    if (!usual_moments_) usual_moments_ = moments_below(usual);
+    Moments moments = *usual_moments_;
+    for (const Light& light : lights(kUsual)) {
+        for (int c = 0; c < 3; ++c) {
+            const double above = std::min(light.power[c] / light.solid_angle, limit - usual);
+            moments.first += light.solid_angle * above;
+            moments.second += light.solid_angle * above * (above + 2.0 * usual);
+        }
+    }
+    return deviation_of(moments) / mean_;
+}
+
+double LightLevels::deviation_of(const Moments& moments) {
+    const double mean = moments.first / (3 * 4 * kPi);
+    return std::sqrt(std::max(0.0, moments.second / (3 * 4 * kPi) - mean * mean));
+}
+
+LightLevels::Moments LightLevels::moments_below(float threshold) const {
+    const auto width = static_cast<std::size_t>(map_.width());
+    std::vector<Moments> rows(row_count(map_));
+    for_each_row(map_, [&](std::int64_t i, const Image& image, int y) {
+        const double* const row = solid_angles_.data() + width * static_cast<std::size_t>(y);
         const std::span<const float> values = image.row(y);
         // few terms in single precision at a time, each times its texel's share of a full row
         constexpr std::size_t kStretch = 64;
@@ -187,8 +256,7 @@ double deviation_below(const EnvironmentMap& map, const std::vector<double>& sol
     });
     Moments all;
     for (const Moments& row : rows) all.first += row.first, all.second += row.second;
-    const double mean = all.first / (3 * 4 * kPi);
-    return std::sqrt(std::max(0.0, all.second / (3 * 4 * kPi) - mean * mean));
+    return all;
 }
 
 }  // namespace mirrorball::detail

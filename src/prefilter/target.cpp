@@ -6,6 +6,16 @@
 
 namespace mirrorball::detail {
 
+MapShape shape_of(const PrefilterTarget& target) {
+    return {target.projection, target.size, target.axes};
+}
+
+EnvironmentMap make_target(const PrefilterTarget& target) {
+    EnvironmentMap map = make_environment_map(shape_of(target));
+    map.levels[0].lobe = target.lobe;
+    return map;
+}
+
 EnvironmentMap mirror_target(const EnvironmentMap& source, const PrefilterTarget& target,
                              const Progress& progress) {
     EnvironmentMap map =
@@ -16,9 +26,7 @@ EnvironmentMap mirror_target(const EnvironmentMap& source, const PrefilterTarget
 
 EnvironmentMap fill_target(const PrefilterTarget& target,
                            const std::function<Vec3d(const Vec3d&)>& f, const Progress& progress) {
-    EnvironmentMap map = make_environment_map(target.projection, target.size);
-    map.axes = target.axes;
-    map.levels[0].lobe = target.lobe;
+    EnvironmentMap map = make_target(target);
     const int width = map.width(), height = map.height();
     const std::vector<double> solid_angles = solid_angle_table(map.projection, width, height);
     visit(target.projection, [&](auto p) {

@@ -7,6 +7,10 @@
 
 namespace mirrorball::detail {
 
+[[nodiscard]] MapShape shape_of(const PrefilterTarget& target);
+/// All zero.
+[[nodiscard]] EnvironmentMap make_target(const PrefilterTarget& target);
+
 /// A delta lobe changes nothing: the target is the source, resampled.
 [[nodiscard]] EnvironmentMap mirror_target(const EnvironmentMap& source,
                                            const PrefilterTarget& target, const Progress& progress);
