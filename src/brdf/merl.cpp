@@ -147,16 +147,16 @@ std::vector<Vec3f> read_cells(InputFile& file) {
 
 }  // namespace
 
-ModelPointer read_merl_model(const std::filesystem::path& path) {
-    InputFile file(path);
+ModelPointer read_merl_model(InputFile& file) {
     check_header(file);
-    return std::make_shared<MerlModel>(path.string(), read_cells(file));
+    return std::make_shared<MerlModel>(file.name(), read_cells(file));
 }
 
 }  // namespace detail
 
 Brdf read_merl(const std::filesystem::path& path) {
-    return Brdf(detail::read_merl_model(path));
+    detail::InputFile file(path);
+    return Brdf(detail::read_merl_model(file));
 }
 
 }  // namespace mirrorball

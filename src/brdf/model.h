@@ -60,7 +60,9 @@ using ModelPointer = std::shared_ptr<const BrdfModel>;
 [[nodiscard]] ModelPointer make_model(const Sheen& parameters);
 [[nodiscard]] ModelPointer make_model(const Mirror& parameters);
 [[nodiscard]] ModelPointer make_model(const Plastic& parameters);
-[[nodiscard]] ModelPointer read_merl_model(const std::filesystem::path& path);
-[[nodiscard]] ModelPointer read_table_model(const std::filesystem::path& path);
+
+class InputFile;
+[[nodiscard]] ModelPointer read_merl_model(InputFile& file);
+[[nodiscard]] ModelPointer read_table_model(InputFile& file);
 
 }  // namespace mirrorball::detail

@@ -12,6 +12,7 @@
 #include "brdf/model.h"
 #include "brdf/parameters.h"
 #include "brdf/sum.h"
+#include "io/file.h"
 
 namespace mirrorball {
 namespace detail {
@@ -145,8 +146,8 @@ std::vector<SumTerm> parse_call(std::string_view text) {
     if (names_file(text)) {
         if (call.parameters.empty())
             throw Error(Errc::usage, fmt::format("expected {}:FILE", call.name));
-        const std::filesystem::path path(call.parameters);
-        return {{Vec3d(1), call.name == "merl" ? read_merl_model(path) : read_table_model(path)}};
+        InputFile file{std::filesystem::path(call.parameters)};
+        return {{Vec3d(1), call.name == "merl" ? read_merl_model(file) : read_table_model(file)}};
     }
     if (const Family* family = find_family(call.name))
         return {{Vec3d(1), family->make({call.parameters})}};

@@ -201,19 +201,19 @@ void check_grid(const InputFile& file, const std::vector<Line>& lines) {
 
 }  // namespace
 
-ModelPointer read_table_model(const std::filesystem::path& path) {
-    InputFile file(path);
+ModelPointer read_table_model(InputFile& file) {
     std::vector<Line> lines = parse_lines(file, read_text(file));
     std::stable_sort(lines.begin(), lines.end(),
                      [](const Line& a, const Line& b) { return a.key() < b.key(); });
     check_grid(file, lines);
-    return std::make_shared<TableModel>(path.string(), lines);
+    return std::make_shared<TableModel>(file.name(), lines);
 }
 
 }  // namespace detail
 
 Brdf read_brdf_table(const std::filesystem::path& path) {
-    return Brdf(detail::read_table_model(path));
+    detail::InputFile file(path);
+    return Brdf(detail::read_table_model(file));
 }
 
 }  // namespace mirrorball

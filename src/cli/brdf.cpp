@@ -20,7 +20,7 @@ namespace mirrorball::cli {
 namespace {
 
 struct Options {
-    std::string name, polar, lobe, albedo;
+    std::string name, polar, hemisphere, albedo;
     std::vector<double> angles = {0, 30, 60, 80};
     bool check = false, list = false;
 };
@@ -49,9 +49,14 @@ int print_list(const Shared& shared) {
     for (const auto& [name, parameters, description] : brdf_models())
         text += fmt::format("  {:<14}{}\n{:16}{}\n", name, description, "", parameters);
     text += "\npresets, and what they stand for:\n";
-    for (const auto& [name, is, description] : brdf_presets())
-        text += fmt::format("  {:<20}{}\n", name, is);
-    print(text);
+    for (const auto& [name, is, description] : brdf_presets()) {
+        // what is true of gold is true of all metals
+        if (description != "a metal" || is.ends_with("=gold"))
+            text += fmt::format("  {:<20}{}\n", name, is);
+    }
+    text += "\nmetals, each with these finishes:\n ";
+    for (const Metal& metal : metals()) text += fmt::format(" {}", metal.name);
+    print(text + "\n");
     return 0;
 }
 
@@ -157,7 +162,7 @@ int run(const Options& options, const Shared& shared) {
         plotted = true;
     };
     plot(options.polar, [&] { return polar_plot(brdf, options.name, options.angles); });
-    plot(options.lobe, [&] { return lobe_plot(brdf, options.name, options.angles); });
+    plot(options.hemisphere, [&] { return hemisphere_plot(brdf, options.name, options.angles); });
     plot(options.albedo, [&] { return albedo_plot(brdf, options.name); });
     if (!plotted || options.check || shared.json) print_figures(brdf, options, shared);
     return 0;
@@ -183,11 +188,12 @@ Command brdf_command(Shared& shared) {
          flag(options->check)},
         {"--plot", "FILE", "the BRDF in the plane of incidence, .svg", text(options->polar),
          file_choices()},
-        {"--lobe", "FILE", "the lobe on a hemisphere, .svg", text(options->lobe), file_choices()},
+        {"--hemisphere", "FILE", "the lobe over the hemisphere, .svg", text(options->hemisphere),
+         file_choices()},
+        {"--angles", "LIST", "of incidence, in degrees, for both of these [0,30,60,80]",
+         parsed(options->angles, parse_angles)},
         {"--albedo", "FILE", "the albedo by the angle of incidence, .svg", text(options->albedo),
          file_choices()},
-        {"--angles", "LIST", "of incidence, in degrees, for --plot and --lobe [0,30,60,80]",
-         parsed(options->angles, parse_angles)},
         {"--list", "", "the models and presets there are", flag(options->list)}};
     add_shared_options(command, shared);
     command.notes = {
@@ -198,7 +204,7 @@ Command brdf_command(Shared& shared) {
         "Errors after ± are the quadrature's. An albedo above 1 by more than they are, or a "
         "relative difference above 1e-6, breaks a law."};
     command.examples = {"mirrorball brdf phong-lewis:50 --check",
-                        "mirrorball brdf \"brushed gold\" --plot lobes.svg --lobe gold.svg",
+                        "mirrorball brdf \"brushed gold\" --plot lobes.svg --hemisphere gold.svg",
                         "mirrorball brdf plastic --albedo albedo.svg --check --json",
                         "mirrorball brdf --list"};
     command.run = [options, &shared] { return run(*options, shared); };

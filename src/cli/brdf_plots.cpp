@@ -465,8 +465,8 @@ std::string polar_plot(const Brdf& brdf, const std::string& title,
     return svg.str();
 }
 
-std::string lobe_plot(const Brdf& brdf, const std::string& title,
-                      const std::vector<double>& angles) {
+std::string hemisphere_plot(const Brdf& brdf, const std::string& title,
+                            const std::vector<double>& angles) {
     const Panels panels(angles.size(), 400);
     Svg svg = panels.svg();
     head(svg, title,

@@ -15,8 +15,8 @@ namespace mirrorball::cli {
                                      const std::vector<double>& angles);
 
 /// f over the hemisphere as a body: as far from the centre as it is bright.
-[[nodiscard]] std::string lobe_plot(const Brdf& brdf, const std::string& title,
-                                    const std::vector<double>& angles);
+[[nodiscard]] std::string hemisphere_plot(const Brdf& brdf, const std::string& title,
+                                          const std::vector<double>& angles);
 
 /// Albedo by the angle of incidence, and the furnace where it is not the same.
 [[nodiscard]] std::string albedo_plot(const Brdf& brdf, const std::string& title);

@@ -101,6 +101,41 @@ TEST(BrdfText, BadTextIsRefusedInWords) {
     }
 }
 
+// Texts with a few characters changed, dropped or doubled are read or refused, nothing else.
+TEST(BrdfText, AnyTextIsReadOrRefused) {
+    const std::string texts[] = {"0.5*lambert:0.8 + 3e-1*phong:exponent=50,reflectance=0.1/0.2/0.3",
+                                 "brushed gold, roughness-y 0.8, coat 1.5",
+                                 "ggx:roughness-x=0.1,roughness-y=1e-1,n=0.2/0.9/1.1,k=3.9"};
+    const std::string characters = "+*/:,= .0123456789eE-nax\t";
+    Numbers numbers;
+    const auto below = [&](std::size_t count) {
+        return static_cast<std::size_t>(numbers.next() * static_cast<double>(count));
+    };
+    int read_count = 0;
+    for (int i = 0; i < 3000; ++i) {
+        std::string text = texts[i % 3];
+        for (std::size_t edits = 1 + below(3); edits > 0; --edits) {
+            const std::size_t at = below(text.size());
+            const char c = characters[below(characters.size())];
+            const std::size_t kind = below(3);
+            if (kind == 0)
+                text[at] = c;
+            else if (kind == 1)
+                text.insert(at, 1, c);
+            else
+                text.erase(at, 1);
+        }
+        try {
+            const Brdf brdf = parse_brdf(text);
+            EXPECT_EQ(parse_brdf(to_string(brdf)), brdf) << text;
+            ++read_count;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), Errc::usage) << text;
+        }
+    }
+    EXPECT_GT(read_count, 100);
+}
+
 TEST(BrdfText, BadStructsAreRefusedToo) {
     EXPECT_THROW(Brdf(Lambert{Vec3d(2)}), Error);
     EXPECT_THROW(Brdf(OrenNayar{.sigma_degrees = -1}), Error);

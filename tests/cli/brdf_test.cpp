@@ -52,7 +52,7 @@ TEST(BrdfVerb, DrawsPlots) {
     const Outcome outcome = run({"brdf", "0.5*lambert + 0.5*phong:20 + <&", "--plot", polar});
     EXPECT_EQ(outcome.code, 2);
     ASSERT_EQ(run({"brdf", "0.5*lambert + 0.3*ggx:0.3,metal=gold + 0.1*mirror", "--plot", polar,
-                   "--lobe", lobe, "--albedo", albedo, "--angles", "10,70.5"})
+                   "--hemisphere", lobe, "--albedo", albedo, "--angles", "10,70.5"})
                   .out,
               polar + "\n" + lobe + "\n" + albedo + "\n");
     for (const std::string& file : {polar, lobe, albedo}) {
@@ -67,7 +67,7 @@ TEST(BrdfVerb, DrawsPlots) {
     EXPECT_NE(contents(lobe).find("mirror 0.1"), std::string::npos);
     // black and a bare mirror have no lobe, and are drawn all the same
     for (const char* name : {"lambert:0", "mirror"}) {
-        EXPECT_EQ(run({"brdf", name, "--plot", polar, "--lobe", lobe, "--albedo", albedo}).code, 0);
+        EXPECT_EQ(run({"brdf", name, "--plot", polar, "--hemisphere", lobe, "--albedo", albedo}).code, 0);
         EXPECT_EQ(contents(polar).find("nan"), std::string::npos) << name;
         EXPECT_EQ(contents(lobe).find("nan"), std::string::npos) << name;
     }

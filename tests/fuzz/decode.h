@@ -8,6 +8,7 @@
 
 #include <mirrorball/error.h>
 
+#include "brdf/model.h"
 #include "io/codec.h"
 
 namespace mirrorball::detail {
@@ -22,6 +23,17 @@ inline bool decode_or_refuse(const Codec& codec, std::span<const std::byte> byte
     options.memory_limit = kMemoryLimit;
     try {
         (void)codec.read(file, options);
+        return false;
+    } catch (const Error&) {
+        return true;
+    }
+}
+
+/// The same for a text table of a BRDF, which is evaluated once, too.
+inline bool read_brdf_or_refuse(std::span<const std::byte> bytes) {
+    InputFile file("fuzzed", bytes);
+    try {
+        (void)read_table_model(file)->evaluate({0.6, 0, 0.8}, {0, 0, 1});
         return false;
     } catch (const Error&) {
         return true;

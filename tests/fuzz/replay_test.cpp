@@ -35,6 +35,7 @@ int for_each_input(const std::string& kind, const F& use) {
 // Every decoder gets every input: what one refuses at its first byte costs nothing.
 void decode_by_all(std::span<const std::byte> bytes) {
     for (const Codec* codec : codecs()) decode_or_refuse(*codec, bytes);
+    read_brdf_or_refuse(bytes);
 }
 
 TEST(FuzzReplay, SeedsDecode) {
@@ -42,7 +43,8 @@ TEST(FuzzReplay, SeedsDecode) {
         for_each_input("seeds", [](const fs::path& name, std::span<const std::byte> bytes) {
             const bool decoded =
                 std::any_of(codecs().begin(), codecs().end(),
-                            [&](const Codec* codec) { return !decode_or_refuse(*codec, bytes); });
+                            [&](const Codec* codec) { return !decode_or_refuse(*codec, bytes); }) ||
+                !read_brdf_or_refuse(bytes);
             EXPECT_TRUE(decoded) << name << " reaches nothing behind the first check";
         });
     EXPECT_GT(count, 0) << "no seeds in tests/fuzz/seeds";
