@@ -85,6 +85,8 @@ struct WriteOptions {
     /// Losslessly, where the format can. Unset: as opens most widely, so EXR yes (every reader has
     /// ZIP), KTX2 no (many viewers have no Zstandard decoder).
     std::optional<bool> compress = {};
+    /// Into formats that hold metadata (KTX2, OpenEXR, Radiance HDR); elsewhere it is left out.
+    Metadata metadata = {};
 };
 
 /// Texels that the stored format could not hold and that were clamped to its range.
@@ -147,7 +149,6 @@ struct LoadedMap {
 
 struct MapWriteOptions : WriteOptions {
     Layout layout = Layout::automatic;
-    Metadata metadata;
 };
 
 /// One file, or one per face where the name has a `%s`. Formats that hold one picture take level 0

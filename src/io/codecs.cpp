@@ -165,6 +165,7 @@ WriteReport write_image(const std::filesystem::path& path, const Image& image,
     contents.format = codec.name;
     contents.stored = chosen.format;
     contents.levels = {{image}};
+    contents.metadata = options.metadata;
 
     WriteReport report;
     Image& copy = contents.levels[0][0];
