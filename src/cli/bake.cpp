@@ -19,6 +19,7 @@ namespace mirrorball::cli {
 namespace {
 
 constexpr std::size_t kMostPhong = 6;
+constexpr int kDfgSize = 128;
 
 std::vector<Lobe> parse_exponents(const std::string& text) {
     std::set<double, std::greater<>> exponents;  // the sharpest first: it needs the largest level
@@ -49,6 +50,13 @@ void name_files(Bake& bake) {
     bake.phong.use = "Look up by the reflection vector; one level per exponent.";
     bake.diffuse.file = "diffuse.ktx2";
     bake.diffuse.use = "Irradiance: look up by the normal, times albedo / pi.";
+    bake.dfg_file.file = "dfg.ktx2";
+    bake.dfg_file.use =
+        "Look up by (n.v, roughness): R and G are what to scale F0 by and what to add, B is "
+        "Charlie sheen's albedo.";
+    bake.fresnel_file.file = "fresnel.ktx2";
+    bake.fresnel_file.use =
+        fmt::format("Look up by n.v: the share that {} mirrors.", to_string(bake.options.fresnel));
 }
 
 void print_result(const Bake& bake, const Shared& shared) {
@@ -57,6 +65,10 @@ void print_result(const Bake& bake, const Shared& shared) {
     for (const BakedMap* baked : {&bake.environment, &bake.specular, &bake.phong, &bake.diffuse}) {
         text += fmt::format("{:<20} {}, {}\n", baked->file, shape_text(baked->map),
                             bytes_text(baked->written.byte_count));
+    }
+    for (const BakedTable* table : {&bake.dfg_file, &bake.fresnel_file}) {
+        text += fmt::format("{:<20} {} x {}, {}\n", table->file, table->image.width(),
+                            table->image.height(), bytes_text(table->written.byte_count));
     }
     double seconds = 0;
     for (const Timing& timing : bake.timings) seconds += timing.seconds;
@@ -91,10 +103,11 @@ void read_source(Bake& bake, const Plans& plans, const Shared& shared) {
                  bake.options.output, shared);
 }
 
-Json run_one(const Job& job, const BakeOptions& options, Plans& plans, ProgressBar& bar,
-             const Shared& shared) {
+Json run_one(const Job& job, const BakeOptions& options, std::shared_ptr<const DfgTable> dfg,
+             Plans& plans, ProgressBar& bar, const Shared& shared) {
     Bake bake;
     bake.options = options;
+    bake.dfg = std::move(dfg);
     bake.options.input.source = job.input;
     bake.options.output = job.output;
     name_files(bake);
@@ -104,6 +117,8 @@ Json run_one(const Job& job, const BakeOptions& options, Plans& plans, ProgressB
     bake.timings.push_back({"reading", watch.lap()});
     compute_maps(bake, plans, bar);
     write_maps(bake, folder.path());
+    make_tables(bake);
+    write_tables(bake, folder.path());
     watch.lap();
     write_pictures(bake, folder.path(), bar.stage("Pictures", 0.2));
     bake.timings.push_back({"pictures", watch.lap()});
@@ -126,8 +141,9 @@ int run(const BakeOptions& options, const Shared& shared) {
     const Batch batch = options.sources.size() == 1
                             ? Batch{{{options.sources.front(), options.output}}, ""}
                             : batch_into(options.output, options.sources, "");
+    const auto dfg = std::make_shared<const DfgTable>(kDfgSize, kDfgSize);
     return run_batch(batch, shared, [&](const Job& job, ProgressBar& bar) {
-        return run_one(job, options, plans, bar, shared);
+        return run_one(job, options, dfg, plans, bar, shared);
     });
 }
 
@@ -159,6 +175,9 @@ Command bake_command(Shared& shared) {
          whole_number(options->environment_size, 1, kLargestSize)},
         {"--diffuse-size", "N", "edge of a face of the irradiance map [64]",
          whole_number(options->diffuse_size, 1, kLargestSize)},
+        {"--fresnel", "SURFACE",
+         "of the Fresnel map: index=N, metal=NAME, n=N,k=K or f0=F; under ,coat=N [index=1.5]",
+         parsed(options->fresnel, parse_fresnel), surface_choices()},
         {"--format",
          "FORMAT",
          "of a texel [rgba16f]",
@@ -169,6 +188,7 @@ Command bake_command(Shared& shared) {
     command.notes = {
         "DIR gets environment.ktx2 (cube with mips), specular.ktx2 (GGX, one level per roughness), "
         "phong.ktx2 (one level per exponent, each of half the size), diffuse.ktx2 (irradiance), "
+        "dfg.ktx2 (split sum: scale, bias, sheen), fresnel.ktx2 (1-D), "
         "irradiance-sh.json (nine coefficients), bake.json (all figures) and index.html with its "
         "pictures. All of them appear together at the end, or none.",
         kBatchNote};

@@ -3,9 +3,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <mirrorball/dfg.h>
+#include <mirrorball/fresnel.h>
 #include <mirrorball/io.h>
 #include <mirrorball/nine_harmonics.h>
 
@@ -23,6 +26,7 @@ struct BakeOptions {
     std::vector<Lobe> phong;
     int size = 256, level_count = 0, environment_size = 0, diffuse_size = 64;
     PrefilterOptions prefilter;
+    Fresnel fresnel = Fresnel::dielectric(1.5);  ///< of the 1-D map
     TexelFormat format = TexelFormat::rgba16f;
 };
 
@@ -46,6 +50,15 @@ struct BakedMap {
     WriteReport written;
 };
 
+/// A file of the result that no environment changes.
+struct BakedTable {
+    std::string file, use;
+    Image image;
+    Metadata metadata;
+    TexelFormat format = TexelFormat::automatic;
+    WriteReport written;
+};
+
 struct Timing {
     std::string work;
     double seconds;
@@ -56,6 +69,8 @@ struct Bake {
     LoadedMap source;
     LevelStatistics source_statistics;
     BakedMap environment, specular, phong, diffuse;
+    std::shared_ptr<const DfgTable> dfg;  ///< one for all inputs
+    BakedTable dfg_file, fresnel_file;
     NineHarmonics radiance;
     double harmonics_error =
         0;                ///< of E(n) from nine coefficients, relative RMSE over the diffuse map
@@ -87,6 +102,9 @@ void choose_environment_size(Bake& bake, std::uint64_t most_bytes);
 void compute_maps(Bake& bake, Plans& plans, ProgressBar& bar);
 /// The .ktx2 files; sets `written` of each map.
 void write_maps(Bake& bake, const std::filesystem::path& folder);
+/// The DFG table and the Fresnel map: as pictures with words, and as .ktx2 files (bake_tables.cpp).
+void make_tables(Bake& bake);
+void write_tables(Bake& bake, const std::filesystem::path& folder);
 /// The tone-mapped PNGs that the report shows (bake_pictures.cpp).
 void write_pictures(const Bake& bake, const std::filesystem::path& folder,
                     const Progress& progress);

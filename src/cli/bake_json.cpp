@@ -29,6 +29,14 @@ Json map_json(const BakedMap& baked) {
     return json;
 }
 
+Json table_json(const BakedTable& table) {
+    Json json = {{"file", table.file},           {"use", table.use},
+                 {"width", table.image.width()}, {"height", table.image.height()},
+                 {"format", name(table.format)}, {"bytes", table.written.byte_count}};
+    for (const auto& [key, value] : table.metadata) json[key.substr(key.find('.') + 1)] = value;
+    return json;
+}
+
 Json source_json(const Bake& bake) {
     const LoadedMap& source = bake.source;
     const LevelStatistics& s = bake.source_statistics;
@@ -57,6 +65,7 @@ Json options_json(const BakeOptions& options) {
             {"phong", phong},
             {"environment_size", options.environment_size},
             {"diffuse_size", options.diffuse_size},
+            {"fresnel", to_string(options.fresnel)},
             {"format", name(options.format)}};
 }
 
@@ -85,6 +94,7 @@ Json bake_json(const Bake& bake) {
         {"source", source_json(bake)},
         {"options", options_json(bake.options)},
         {"maps", files},
+        {"tables", {table_json(bake.dfg_file), table_json(bake.fresnel_file)}},
         {"harmonics", {{"file", "irradiance-sh.json"}, {"relative_rmse", bake.harmonics_error}}},
         {"pictures", {{"folder", kPictureFolder}, {"exposure", bake.exposure}}},
         {"seconds", seconds}};

@@ -7,13 +7,16 @@
 #include <mirrorball/tone_map.h>
 
 #include "bake.h"
+#include "bake_materials.h"
 #include "ball.h"
+#include "brdf_plots.h"
 #include "core/parallel.h"
 
 namespace mirrorball::cli {
 namespace {
 
-constexpr int kBallSize = 320;
+constexpr int kBallSize = 320, kMaterialSize = 240;
+constexpr int kTableSize = 384;
 constexpr int kCrossFace = 192, kLevelCrossFace = 96;
 
 class Painter {
@@ -46,14 +49,36 @@ class Painter {
         ball(file, [&](const Vec3d& n) { return Vec3f(evaluate(irradiance, n) / kPi); });
     }
 
+    void material(const Material& material) const {
+        ball(material.file, material.radiance, kMaterialSize);
+    }
+
+    // As it is looked up, roughness growing downwards. Sheen's albedo can exceed 1.
+    void dfg(const DfgTable& table, const std::string& file) const {
+        Image image(kTableSize, kTableSize, 3);
+        for (int y = 0; y < kTableSize; ++y) {
+            for (int x = 0; x < kTableSize; ++x) {
+                const double n_dot_v = (x + 0.5) / kTableSize, roughness = (y + 0.5) / kTableSize;
+                const Dfg dfg = table.ggx(n_dot_v, roughness);
+                const double sheen = std::min(1.0, table.charlie(n_dot_v, roughness));
+                image.set_rgb(x, y, Vec3f(Vec3d(dfg.scale, dfg.bias, sheen)));
+            }
+        }
+        write_image(folder_ / file, image, {.format = TexelFormat::unorm8});
+    }
+
+    void fresnel(const Fresnel& fresnel, const std::string& file) const {
+        write_text(folder_ / file, fresnel_plot(fresnel, to_string(fresnel)));
+    }
+
   private:
-    void ball(const std::string& file, const Shade& radiance) const {
+    void ball(const std::string& file, const Shade& radiance, int size = kBallSize) const {
         const auto shade = [&](const Vec3d& n) {
             const Vec3f light = radiance(n);
             return Vec3f(tone_mapped(light.x, bake_.exposure), tone_mapped(light.y, bake_.exposure),
                          tone_mapped(light.z, bake_.exposure));
         };
-        write_image(folder_ / file, draw_ball(kBallSize, shade), {.format = TexelFormat::unorm8});
+        write_image(folder_ / file, draw_ball(size, shade), {.format = TexelFormat::unorm8});
     }
 
     void write(const EnvironmentMap& map, const std::string& file, double exposure) const {
@@ -115,6 +140,15 @@ void write_pictures(const Bake& bake, const std::filesystem::path& folder,
         painter.matte_ball(bake.diffuse.map, "diffuse-ball.png");
         painter.cross(bake.diffuse.map, 0, kLevelCrossFace, bake.exposure / kPi, "diffuse.png");
         painter.harmonics_ball(convolved_with_cosine(bake.radiance), "harmonics-ball.png");
+    });
+    const std::vector<MaterialRow> rows = material_rows(bake);
+    for (const MaterialRow& row : rows) {
+        for (const Material& material : row.materials)
+            tasks.emplace_back([&] { painter.material(material); });
+    }
+    tasks.emplace_back([&] {
+        painter.dfg(*bake.dfg, "dfg.png");
+        painter.fresnel(bake.options.fresnel, "fresnel.svg");
     });
     detail::parallel_for(
         std::ssize(tasks), [&](std::int64_t i) { tasks[i](); }, progress);

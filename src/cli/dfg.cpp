@@ -120,7 +120,10 @@ int run(const Options& options, const Shared& shared) {
     } else {
         const WriteReport report =
             write_image(options.output, dfg_image(table, options.channels), write);
-        tell_clipped(options.output, report, shared);
+        if (report.clipped_texel_count > 0)
+            tell(shared, fmt::format("{}: {} texels are beyond what the format holds and are "
+                                     "clipped",
+                                     options.output, report.clipped_texel_count));
         byte_count = report.byte_count;
     }
     if (shared.json) {

@@ -73,13 +73,6 @@ int run(const Options& options, const Shared& shared) {
     return 0;
 }
 
-Choices surface_choices() {
-    Choices choices{.values = {"index=1.5", "f0=0.04"}};
-    for (const Metal& metal : metals())
-        choices.values.push_back(fmt::format("metal={}", metal.name));
-    return choices;
-}
-
 }  // namespace
 
 Command fresnel_command(Shared& shared) {

@@ -8,6 +8,7 @@
 
 #include <mirrorball/builtin.h>
 #include <mirrorball/error.h>
+#include <mirrorball/fresnel.h>
 #include <mirrorball/prefilter.h>
 #include <mirrorball/row_reader.h>
 
@@ -101,6 +102,13 @@ Choices lobe_choices() {
 
 Choices mapping_choices() {
     return {.values = level_mappings(), .closed = true};
+}
+
+Choices surface_choices() {
+    Choices choices{.values = {"index=1.5", "f0=0.04"}};
+    for (const Metal& metal : metals())
+        choices.values.push_back(fmt::format("metal={}", metal.name));
+    return choices;
 }
 
 Choices builtin_choices() {

@@ -63,6 +63,8 @@ struct Rotation {
 [[nodiscard]] Choices mapping_choices();
 [[nodiscard]] Choices input_choices();
 [[nodiscard]] Choices builtin_choices();
+/// Of a Fresnel term.
+[[nodiscard]] Choices surface_choices();
 inline Choices file_choices() {
     return {.values = {}, .closed = false, .files = true};
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "bake.h"
+#include "bake_materials.h"
 
 namespace mirrorball::cli {
 namespace {
@@ -244,6 +245,64 @@ std::string diffuse_section(const Bake& bake) {
            "</div>\n</section>\n";
 }
 
+std::string shelf(const MaterialRow& row) {
+    std::string balls;
+    for (const Material& material : row.materials) {
+        balls += fmt::format(
+            "<div>{}<span>{}</span></div>\n",
+            picture(material.file, fmt::format("A ball: {}, {}", row.heading, material.label),
+                    "round"),
+            material.label);
+    }
+    return fmt::format(
+        "<figure class=\"card shelf\"><div class=\"well\" style=\"--balls:{}\">{}</div>"
+        "<figcaption><h3>{}</h3><p>{}</p></figcaption></figure>\n",
+        row.materials.size(), balls, row.heading, row.text);
+}
+
+std::string materials_section(const Bake& bake) {
+    std::string html =
+        "<section>\n<h2>Materials</h2>\n<p>Balls shaded with the files of this page and nothing "
+        "else, seen from the front, at the exposure of the other pictures.</p>\n"
+        "<div class=\"shelves\">\n";
+    for (const MaterialRow& row : material_rows(bake)) html += shelf(row);
+    return html + "</div>\n</section>\n";
+}
+
+std::string tables_section(const Bake& bake) {
+    return fmt::format(
+               "<section>\n<h2>Tables</h2>\n<p>What depends on the surface and not on the "
+               "environment: <a href=\"{0}\">{0}</a>, <a href=\"{1}\">{1}</a></p>\n"
+               "<div class=\"grid two\">\n",
+               bake.dfg_file.file, bake.fresnel_file.file) +
+           figure_card("",
+                       "<div class=\"axes\"><span>n·v 0</span><span>1</span>" +
+                           picture("dfg.png",
+                                   "The DFG table: n.v grows to the right, roughness downwards") +
+                           "<span>roughness 0 ↓ 1</span></div>",
+                       "DFG",
+                       "The split sum: L = L<sub>D</sub> (F0 R + F90 G). Red is the scale, green "
+                       "the bias, blue the albedo of sheen, here cut off at 1.") +
+           figure_card("",
+                       picture("fresnel.svg", fmt::format("Reflectance by angle of {}",
+                                                          to_string(bake.options.fresnel))),
+                       "Fresnel",
+                       fmt::format("The share of the light that <code>{}</code> mirrors, by the "
+                                   "angle; the file has it by the cosine.",
+                                   escaped(to_string(bake.options.fresnel)))) +
+           "</div>\n</section>\n";
+}
+
+std::string table_row(const BakedTable& table) {
+    return fmt::format(
+        "<tr><td><a href=\"{0}\"><code>{0}</code></a></td><td>{1}</td>"
+        "<td class=\"number\">{2} × {3}</td><td>{4}</td>"
+        "<td class=\"number\">{5}</td><td class=\"number\">{6}</td></tr>\n",
+        table.file, escaped(table.use), table.image.width(), table.image.height(),
+        name(table.format), bytes_text(table.written.byte_count),
+        table.written.clipped_texel_count);
+}
+
 std::string file_row(const BakedMap& baked, const Bake& bake) {
     const WriteReport& written = baked.written;
     std::string clipped = fmt::format("{}", written.clipped_texel_count);
@@ -267,6 +326,7 @@ std::string files_section(const Bake& bake) {
     for (const BakedMap* baked : {&bake.environment, &bake.specular, &bake.phong, &bake.diffuse}) {
         html += file_row(*baked, bake);
     }
+    html += table_row(bake.dfg_file) + table_row(bake.fresnel_file);
     return html +
            "<tr><td><a href=\"irradiance-sh.json\"><code>irradiance-sh.json</code></a></td>"
            "<td colspan=\"5\">Nine coefficients of radiance and of irradiance, basis "
@@ -328,8 +388,8 @@ std::string report_html(const Bake& bake) {
             bake.options.mapping));
     html += chain_section(bake.phong, "Phong, one level per exponent", "phong",
                           "The environment blurred by the classic cosine lobe.");
-    html +=
-        diffuse_section(bake) + files_section(bake) + times_section(bake) + source_section(bake);
+    html += diffuse_section(bake) + materials_section(bake) + tables_section(bake) +
+            files_section(bake) + times_section(bake) + source_section(bake);
     return html +
            "<footer>Flux is the integral of radiance over the sphere. The seam ratio is the step "
            "between texels across a cube's edges over the step beside them: 1 means that no edge "

@@ -59,6 +59,16 @@ figcaption p { color: var(--soft); font-size: 14px; margin: 4px 0 0; }
   49.9% 100%, 25.1% 100%, 25.1% 66.6%, 0 66.6%, 0 33.4%, 25.1% 33.4%); }
 .unfolded span { position: absolute; padding: 1px 8px; margin: 8px; border-radius: 99px;
   background: rgb(0 0 0 / 0.62); color: #fff; font-size: 12px; line-height: 1.6; }
+.shelves { display: grid; gap: 16px; margin-top: 18px; }
+.shelf { grid-row: auto; display: block; margin: 0; }
+.shelf .well { display: grid; gap: 20px 28px; padding: 24px; align-items: end;
+  grid-template-columns: repeat(var(--balls), minmax(0, 200px)); }
+.shelf span { display: block; text-align: center; color: var(--soft); font-size: 14px;
+  line-height: 1.35; margin-top: 10px; min-height: 1.35em; }
+.axes { display: grid; grid-template-columns: 1fr 1fr; gap: 4px; width: min(100%, 330px);
+  color: var(--soft); font-size: 13px; }
+.axes img { grid-column: span 2; }
+.axes span:nth-of-type(2) { text-align: right; }
 .facts { display: grid; grid-template-columns: auto 1fr; gap: 2px 12px; margin: 10px 0 0;
   font-size: 14px; }
 .facts dt { color: var(--soft); }
@@ -86,6 +96,7 @@ footer { color: var(--soft); font-size: 14px; padding: 56px 0 40px; }
   .tiles { grid-template-columns: 1fr 1fr; gap: 8px; }
   .tiles div { padding: 12px; }
   .tiles dd { font-size: 18px; }
+  .shelf .well { grid-template-columns: repeat(2, minmax(0, 200px)); gap: 16px; padding: 16px; }
   .unfolded span { font-size: 10px; margin: 3px; padding: 0 5px; }
   .times li { grid-template-columns: 112px 1fr 56px; }
 }
