@@ -304,8 +304,9 @@ TEST(Brdf, LawsKeptAndBroken) {
         const BrdfProperties p = measure_brdf(parse_brdf(text), quick);
         EXPECT_TRUE(p.is_reciprocal()) << text << " " << p.reciprocity.largest;
         EXPECT_TRUE(p.is_positive()) << text;
-        EXPECT_TRUE(p.conserves_energy()) << text << " " << p.brightest().albedo.value.x;
         const std::string name(text);
+        EXPECT_EQ(p.conserves_energy(), !name.starts_with("ward-original"))
+            << text << " " << p.brightest().albedo.value.x;
         const bool anisotropic = name.find("banks") != std::string::npos ||
                                  name.find("ky=-0.6") != std::string::npos ||
                                  name.find("roughness-x") != std::string::npos;
@@ -319,7 +320,7 @@ TEST(Brdf, LawsKeptAndBroken) {
     EXPECT_GT(lewis.reciprocity.largest, 0.5);
     EXPECT_FALSE(lewis.is_reciprocal());
     EXPECT_FALSE(lewis.conserves_energy());
-    EXPECT_NEAR(lewis.brightest().theta, 89.5 * kPi / 180, 1e-12);
+    EXPECT_NEAR(lewis.brightest().theta, 89.999 * kPi / 180, 1e-12);
     EXPECT_FALSE(measure_brdf(parse_brdf("phong-plain:2"), quick).conserves_energy());
     EXPECT_TRUE(measure_brdf(parse_brdf("phong-plain:5"), quick).conserves_energy());
     EXPECT_FALSE(measure_brdf(parse_brdf("charlie:0.1"), quick).conserves_energy());
