@@ -261,6 +261,27 @@ double first_order(const Lobe& lobe) {
     return sum;
 }
 
+// So many that it is cheaper to take more bands than to put each right.
+TEST(Prefilter, ThousandsOfLightsAreNearTheTruth) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform;
+    const EnvironmentMap source = sampled(Projection::equirect, 256, [&](const Vec3d& d) {
+        return d.y > 0.3 && uniform(random) < 0.2 ? Vec3d(300, 280, 250) : Vec3d(0.1, 0.2, 0.3);
+    });
+    const std::vector<PrefilterTarget> targets = {target("ggx:0.3", 21), target("diffuse", 20)};
+    const std::vector<Measured> measured = measure(source, targets);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const auto& [difference, estimate] = measured[i];
+        record("thousands " + to_string(targets[i].lobe), measured[i]);
+        EXPECT_LE(difference.relative_rmse, 1e-4) << i;
+        EXPECT_GE(estimate, difference.relative_rmse) << i;
+    }
+    const PrefilterPlan plan(shape_of(source), targets);
+    const Prefiltered first = plan(source), second = plan(source);
+    for (std::size_t i = 0; i < targets.size(); ++i)
+        EXPECT_TRUE(same_bits(first.maps[i], second.maps[i])) << i;
+}
+
 TEST(Prefilter, LinearRampsComeOutByFunkHecke) {
     const EnvironmentMap source = averaged(Projection::equirect, 256,
                                            [](const Vec3d& d) { return Vec3d(1 + kSlope.dot(d)); });
