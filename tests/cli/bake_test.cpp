@@ -53,8 +53,8 @@ void expect_whole_page(const std::filesystem::path& folder) {
 }
 
 TEST_F(Bake, LeavesAllThatIsPromised) {
-    const Outcome outcome =
-        run(bake("out", {"--mapping", "gltf", "--levels", "3", "--phong", "50,5"}));
+    const Outcome outcome = run(bake("out", {"--mapping", "gltf", "--levels", "3", "--phong",
+                                             "50,5", "--fresnel", "metal=gold"}));
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.out, "");
 
@@ -78,6 +78,13 @@ TEST_F(Bake, LeavesAllThatIsPromised) {
                 EXPECT_NEAR(ratio, 1, 0.02) << map["file"];
         }
     }
+    ASSERT_EQ(facts["tables"].size(), 2u);
+    EXPECT_EQ(facts["tables"][0]["channels"], "scale,bias,charlie");
+    EXPECT_EQ(facts["tables"][1]["surface"], "metal=gold");
+    EXPECT_EQ(facts["options"]["fresnel"], "metal=gold");
+    for (const Json& table : facts["tables"])
+        EXPECT_EQ(std::filesystem::file_size(folder_ / "out" / table["file"].get<std::string>()),
+                  table["bytes"]);
     EXPECT_LT(facts["harmonics"]["relative_rmse"], 0.2);
     EXPECT_EQ(json("out/irradiance-sh.json")["irradiance"]["coefficients"].size(), 9u);
     expect_whole_page(folder_ / "out");

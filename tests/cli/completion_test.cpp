@@ -41,6 +41,8 @@ TEST(Completion, OffersVerbsOptionsAndValues) {
     expect_offer("mirrorball irradiance-sh a.hdr --scale t", "three.js");
     expect_offer("mirrorball brdf brushed-g", "brushed-gold");
     expect_offer("mirrorball fresnel metal=", "metal=gold");
+    expect_offer("mirrorball dfg --channels fi", "filament");
+    expect_offer("mirrorball bake a.hdr --fresnel metal=", "metal=gold");
     expect_offer("mirrorball completion ", "bash");
     EXPECT_EQ(completed("mirrorball convert a.hdr --to oct").find("cube"), std::string::npos);
 }
