@@ -15,7 +15,7 @@
 namespace mirrorball::cli {
 namespace {
 
-constexpr int kBallSize = 320, kMaterialSize = 240;
+constexpr int kBallSize = 320, kMaterialSize = 200;
 constexpr int kTableSize = 384;
 constexpr int kCrossFace = 192, kLevelCrossFace = 96;
 

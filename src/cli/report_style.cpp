@@ -60,7 +60,8 @@ figcaption p { color: var(--soft); font-size: 14px; margin: 4px 0 0; }
 .unfolded span { position: absolute; padding: 1px 8px; margin: 8px; border-radius: 99px;
   background: rgb(0 0 0 / 0.62); color: #fff; font-size: 12px; line-height: 1.6; }
 .shelves { display: grid; gap: 16px; margin-top: 18px; }
-.shelf { grid-row: auto; display: block; margin: 0; }
+.shelf { grid-row: auto; margin: 0; grid-template: auto / minmax(200px, 260px) 1fr; }
+.shelf figcaption { order: -1; align-self: center; padding: 16px 20px; }
 .shelf .well { display: grid; gap: 20px 28px; padding: 24px; align-items: end;
   grid-template-columns: repeat(var(--balls), minmax(0, 200px)); }
 .shelf span { display: block; text-align: center; color: var(--soft); font-size: 14px;
@@ -96,6 +97,7 @@ footer { color: var(--soft); font-size: 14px; padding: 56px 0 40px; }
   .tiles { grid-template-columns: 1fr 1fr; gap: 8px; }
   .tiles div { padding: 12px; }
   .tiles dd { font-size: 18px; }
+  .shelf { display: block; }
   .shelf .well { grid-template-columns: repeat(2, minmax(0, 200px)); gap: 16px; padding: 16px; }
   .unfolded span { font-size: 10px; margin: 3px; padding: 0 5px; }
   .times li { grid-template-columns: 112px 1fr 56px; }

@@ -1,6 +1,8 @@
 // The main job: everything is there and opens, any thread count gives the same, nothing half done.
 #include <nlohmann/json.hpp>
 
+#include <mirrorball/io.h>
+
 #include <chrono>
 #include <thread>
 
@@ -88,6 +90,41 @@ TEST_F(Bake, LeavesAllThatIsPromised) {
     EXPECT_LT(facts["harmonics"]["relative_rmse"], 0.2);
     EXPECT_EQ(json("out/irradiance-sh.json")["irradiance"]["coefficients"].size(), 9u);
     expect_whole_page(folder_ / "out");
+}
+
+// Where the brightest pixels lie, from 0 to 1 to the right and down.
+std::pair<double, double> place_of_highlight(const std::filesystem::path& picture) {
+    const Image image = read_image(picture);
+    float most = 0;
+    for (const float value : image.values()) most = std::max(most, value);
+    double x_sum = 0, y_sum = 0, count = 0;
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            if (image.rgb(x, y).x < 0.9f * most) continue;
+            x_sum += x + 0.5, y_sum += y + 0.5, ++count;
+        }
+    }
+    return {x_sum / count / image.width(), y_sum / count / image.height()};
+}
+
+// A lamp to the right, 30 degrees up, is seen where the ball faces half way between it and us.
+TEST_F(Bake, BallsShowALampOnItsSide) {
+    Image lamp(64, 32, 3);
+    for (float& value : lamp.values()) value = 0.02f;
+    for (const int y : {10, 11})
+        for (const int x : {47, 48}) lamp.set_rgb(x, y, Vec3f(40, 40, 40));
+    sky_ = (folder_ / "lamp.exr").string();
+    write_image(sky_, lamp);
+    ASSERT_EQ(run(bake("out", {"--environment-size", "64"})).code, 0);
+    const double h = 1 / std::sqrt(2.0), elevation = 28.1 * kPi / 180;  // the patch's middle
+    const double right = (1 + h * std::cos(elevation)) / 2,
+                 down = (1 - h * std::sin(elevation)) / 2;
+    for (const char* name : {"mirror", "phong-0", "fresnel-2.4", "gold-0.1", "plastic"}) {
+        const auto [x, y] = place_of_highlight(folder_ / "out" / "pictures" /
+                                               (std::string("material-") + name + ".png"));
+        EXPECT_NEAR(x, right, 0.04) << name;
+        EXPECT_NEAR(y, down, 0.04) << name;
+    }
 }
 
 // bake.json and the page tell times, so they differ from run to run; nothing else does.

@@ -94,7 +94,7 @@ TEST_F(MapWriter, EveryProjectionComesBackFromEveryLayout) {
                 const EnvironmentMap map = small_map(projection);
                 const std::string file = path(std::string("map") + ending);
                 const WriteReport report =
-                    write_map(file, map, {{.format = TexelFormat::automatic}, layout, {}});
+                    write_map(file, map, {{.format = TexelFormat::automatic}, layout});
                 EXPECT_EQ(report.clipped_texel_count, 0);
                 EXPECT_EQ(report.byte_count, std::filesystem::file_size(file));
 
