@@ -19,9 +19,6 @@ class AlignedArray {
           count_(count) {
         if (!values_) throw std::bad_alloc();
     }
-    AlignedArray(std::size_t count, T value) : AlignedArray(count) {
-        for (T& v : *this) v = value;
-    }
 
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] T* data() { return values_.get(); }

@@ -22,8 +22,6 @@ HWY_BEFORE_NAMESPACE();
 namespace mirrorball::detail {
 namespace HWY_NAMESPACE {
 
-constexpr int kParts = 12;  // three channels, cosines and sines, two parities or hemispheres
-
 std::size_t lane_count() {
     return hn::Lanes(Lanes());
 }
@@ -295,9 +293,6 @@ HWY_EXPORT(from_spectra);
 std::size_t padded(int order_count) {
     return static_cast<std::size_t>(order_count) | 1;
 }
-
-// As in the vector code above.
-constexpr int kParts = 12;
 
 }  // namespace
 

@@ -36,9 +36,10 @@ struct Columns {
 };
 
 /// Working memory between the two halves of a transform: what each pair of rings holds at each
-/// order, [group][order][12][lane]. The twelve are three channels of cosines and of sines, of the
+/// order, [group][order][part][lane]. The parts are three channels of cosines and of sines, of the
 /// even and of the odd part in analysis, of north and of south in synthesis.
 using RingSpectra = ScratchArray;
+inline constexpr int kParts = 12;
 
 /// Planar values on a group of rings, [column][north, south][lane].
 using GroupValues = ScratchArray;

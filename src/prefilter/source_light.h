@@ -39,6 +39,7 @@ class LightLevels {
                 const SourceRange& range, float mean);
 
     [[nodiscard]] bool any(std::size_t level) const { return brightest_ > threshold(level); }
+    [[nodiscard]] const std::vector<Light>& lights(std::size_t level);
     [[nodiscard]] std::size_t count(std::size_t level) { return lights(level).size(); }
     [[nodiscard]] const NearField& field(std::size_t level);
 
@@ -54,7 +55,6 @@ class LightLevels {
     };
 
     [[nodiscard]] float threshold(std::size_t level) const { return kThresholds[level] * mean_; }
-    [[nodiscard]] const std::vector<Light>& lights(std::size_t level);
     [[nodiscard]] static double deviation_of(const Moments& moments);
     [[nodiscard]] Moments moments_below(float threshold) const;
     // With what is above the usual level's threshold cut off at `limit`.
