@@ -51,7 +51,7 @@ struct BrdfProperties {
     /// The smallest value of any channel, and how many values were not finite numbers.
     double smallest = 0;
     int not_finite_count = 0;
-    /// From the normal to 89.5 degrees.
+    /// From the normal to 89.999 degrees.
     std::vector<AlbedoPoint> albedo;
     Integral mean_albedo;
 

@@ -41,6 +41,8 @@ struct ResampleOptions {
 /// Holds 16 bytes per texel of the result and 24 per cell of a texel that is cut into cells, less
 /// what symmetries save: parts of the result that take alike from alike parts of the source share
 /// theirs. A cube map of a panorama in like axes holds a twelfth. bytes() says how much it is.
+/// Where the result is much the finer, a run needs as much memory again as the source while it
+/// lasts.
 class Resampler {
   public:
     /// \throws Error(Errc::usage) as make_environment_map() does

@@ -38,10 +38,9 @@ class BanksModel : public ModelOf<Banks> {
     // delta by the lobe, gamma by its cosine. Where delta carries psi past the fibre's end, the
     // direction comes out below the surface, which tells it from the others.
     double density(const Vec3d& wi, const Vec3d& wo) const override {
-        const double r2 = wi.y * wi.y + wi.z * wi.z;
-        if (r2 <= 0) return 0;
-        const double cos_psi = std::copysign(std::sqrt(r2), wi.z);
-        const double cosine = cos_psi * std::sqrt(1 - wo.x * wo.x) - wi.x * wo.x;
+        const double cos_psi = std::copysign(across(wi), wi.z);
+        if (cos_psi == 0) return 0;
+        const double cosine = cos_psi * across(wo) - wi.x * wo.x;
         if (cosine <= 0) return 0;
         const double cos_gamma = wi.z / cos_psi;
         return density_scale_ * std::pow(cosine, p_.exponent) * cos_gamma / 2 / std::abs(cos_psi);
@@ -52,14 +51,16 @@ class BanksModel : public ModelOf<Banks> {
         const double r =
             p_.exponent > 0 ? std::sqrt(-std::expm1(2 / p_.exponent * std::log1p(-u.x))) : 1;
         const double delta = std::asin(r * std::cos(2 * kPi * u.y));
-        const double psi = delta - std::asin(wo.x);
+        const double psi = delta - std::atan2(wo.x, across(wo));
         const double sin_gamma = 2 * u.z - 1, cos_gamma = std::sqrt(1 - sin_gamma * sin_gamma);
         return {{std::sin(psi), std::cos(psi) * sin_gamma, std::cos(psi) * cos_gamma}};
     }
 
   private:
+    // cos(psi), for directions along the fibre as exact as for others
+    static double across(const Vec3d& w) { return std::hypot(w.y, w.z); }
     static double cos_delta(const Vec3d& a, const Vec3d& b) {
-        return std::sqrt((1 - a.x * a.x) * (1 - b.x * b.x)) - a.x * b.x;
+        return across(a) * across(b) - a.x * b.x;
     }
 
     double scale_, density_scale_;

@@ -74,8 +74,9 @@ void check_count(const char* name, int count) {
                                              kLeastCount, kMostCount));
 }
 
-// Angles of incidence, closer together towards grazing where albedos change.
-constexpr double kAngles[] = {0, 15, 30, 45, 60, 70, 75, 80, 85, 87.5, 89.5};
+// Angles of incidence, closer together towards grazing where albedos change; there are models that
+// break down in the last tenth of a degree.
+constexpr double kAngles[] = {0, 15, 30, 45, 60, 70, 75, 80, 85, 87.5, 89.5, 89.9, 89.999};
 constexpr int kAngleCount = std::size(kAngles), kAzimuthCount = 4;
 
 Vec3d incidence(int angle, int azimuth) {

@@ -495,7 +495,8 @@ std::string albedo_plot(const Brdf& brdf, const std::string& title) {
     }
     // beyond twice the light that arrives a curve may leave the chart
     AngleChart chart(top <= 1.001 ? 1 : std::min(2.0, std::ceil(top * 4) / 4), 0.25);
-    head(chart.svg(), title, "share of the light that is reflected");
+    head(chart.svg(), title,
+         "share of the light that is reflected, light coming along the tangent");
     if (top > 1.001) chart.level(1, "all of the light");
     chart.curves(degrees, albedo, ink::kBlue, false);
     int row = add_legend(chart, 0, albedo, ink::kBlue, false, "albedo");

@@ -20,33 +20,40 @@ class AcrossEdges {
           width_(level.width),
           height_(level.height) {}
 
-    [[nodiscard]] Rgbx weigh(const Stencil& stencil) const {
-        if (stencil.kind == BoxKind::smooth) return smooth(stencil);
+    /// Stencil k.
+    [[nodiscard]] Rgbx weigh(const Stencils& stencils, int k) const {
+        const Corner corner{stencils.face, stencils.column[k], stencils.row[k]};
+        const float *const columns = stencils.columns[k], *const rows = stencils.rows[k];
+        if (stencils.kind[k] == BoxKind::smooth) return smooth(corner, columns, rows);
         Rgbx sum{};
-        for (int j = 0; j < stencil.row_count; ++j) {
-            if (stencil.rows[j] == 0) continue;
+        for (int j = 0; j < 4; ++j) {
+            if (rows[j] == 0) continue;
             Rgbx row{};
-            for (int i = 0; i < stencil.column_count; ++i)
-                if (stencil.columns[i] != 0) row += texel(stencil, i, j) * stencil.columns[i];
-            sum += row * stencil.rows[j];
+            for (int i = 0; i < 4; ++i)
+                if (columns[i] != 0) row += texel(corner, i, j) * columns[i];
+            sum += row * rows[j];
         }
         return sum;
     }
 
   private:
-    Rgbx smooth(const Stencil& stencil) const {
-        Rgbx columns[4];
+    struct Corner {
+        int face, column, row;
+    };
+
+    Rgbx smooth(const Corner& corner, const float* columns, const float* rows) const {
+        Rgbx sums[4];
         for (int i = 0; i < 4; ++i)
-            columns[i] = monotone_cubic(texel(stencil, i, 0), texel(stencil, i, 1),
-                                        texel(stencil, i, 2), texel(stencil, i, 3), stencil.rows);
-        return monotone_cubic(columns[0], columns[1], columns[2], columns[3], stencil.columns);
+            sums[i] = monotone_cubic(texel(corner, i, 0), texel(corner, i, 1), texel(corner, i, 2),
+                                     texel(corner, i, 3), rows);
+        return monotone_cubic(sums[0], sums[1], sums[2], sums[3], columns);
     }
 
     // Column i and row j of a stencil, where the level's move carries them.
-    Rgbx texel(const Stencil& stencil, int i, int j) const {
-        const Move& move = level_.moves[stencil.face];
-        const int x = mirrored(move.flip_s, stencil.column[0] + i, 1, width_),
-                  y = mirrored(move.flip_t, stencil.row[0] + j, 1, height_);
+    Rgbx texel(const Corner& corner, int i, int j) const {
+        const Move& move = level_.moves[corner.face];
+        const int x = mirrored(move.flip_s, corner.column + i, 1, width_),
+                  y = mirrored(move.flip_t, corner.row + j, 1, height_);
         return fetch(move.face, x + move.quarters * (width_ / 4), y);
     }
 

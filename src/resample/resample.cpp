@@ -11,6 +11,7 @@
 #include <mirrorball/resample.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -32,9 +33,10 @@ namespace {
 
 using detail::Box;
 using detail::BoxKind;
+using detail::kBlock;
 using detail::MovedLevel;
 using detail::Rgbx;
-using detail::Stencil;
+using detail::Stencils;
 
 // An edge longer than this many source texels is cut; so is one that crosses this many the other
 // way.
@@ -47,8 +49,6 @@ constexpr double kMagnified = 0.5;
 constexpr double kMostCellsPerSourceTexel = 4;
 // A texel on the rim is cut so that the rim's course through it is seen.
 constexpr int kRimCells = 16;
-
-constexpr int kBlock = 128;  // texels or cells that are worked out together, in vector code
 
 // Texels of the target, or cells of one, as the source sees them: where their centres lie on the
 // sphere, and their two edges as differences of direction.
@@ -187,8 +187,8 @@ class Source {
     virtual void footprints(const Patches& patches, Footprints& out) const = 0;
     // The box that stands for a patch.
     [[nodiscard]] virtual Box box(const Footprints& footprints, int i) const = 0;
-    // What a stencil is worth that reaches over an edge of its face.
-    [[nodiscard]] virtual Rgbx across_edges(const Stencil& stencil,
+    // What stencil k is worth, which reaches over an edge of its face.
+    [[nodiscard]] virtual Rgbx across_edges(const Stencils& stencils, int k,
                                             const MovedLevel& level) const = 0;
 };
 
@@ -211,9 +211,7 @@ class SourceOf final : public Source {
     Box box(const Footprints& f, int i) const override {
         const double larger = std::max(f.width[i], f.height[i]);
         Box box;
-        box.kind = bicubic_ && larger <= kMagnified ? BoxKind::smooth
-                   : larger <= 2                    ? BoxKind::small
-                                                    : BoxKind::large;
+        box.kind = bicubic_ && larger <= kMagnified ? BoxKind::smooth : BoxKind::mean;
         box.face = static_cast<std::uint8_t>(f.face[i]);
         box.s = fixed_point(f.s[i]), box.t = fixed_point(f.t[i]);
         box.width = fixed_point_size(f.width[i]), box.height = fixed_point_size(f.height[i]);
@@ -221,8 +219,8 @@ class SourceOf final : public Source {
         return box;
     }
 
-    Rgbx across_edges(const Stencil& stencil, const MovedLevel& level) const override {
-        return detail::AcrossEdges<P>(level).weigh(stencil);
+    Rgbx across_edges(const Stencils& stencils, int k, const MovedLevel& level) const override {
+        return detail::AcrossEdges<P>(level).weigh(stencils, k);
     }
 
   private:
@@ -383,80 +381,113 @@ class RowPlanner {
     double solid_angle_[kBlock];  // of a cut texel's cells
 };
 
-// Runs the plan of a row, for all repeats of its patch.
+// Runs the plan of a row, for all repeats of its patch, a block of stencils after the other. As a
+// rule a block is texels side by side, a stencil each, and goes straight to the result. Where a
+// texel is cut or its box is large, it has several, and its colour is their sum.
 class RowRunner {
   public:
-    RowRunner(const Source& source, const Level& from, Level& to) : source_(source), to_(to) {
-        for (std::size_t face = 0; face < from.faces.size(); ++face)
-            level_.faces[face] = from.faces[face].at(0, 0);
-        level_.width = from.width(), level_.height = from.height();
-    }
+    RowRunner(const Source& source, const MovedLevel& from, Level& to)
+        : source_(source),
+          level_(from),
+          to_(to) {}
 
     void run(const detail::Patch& patch, int y, const RowPlan& row) {
-        for (int x = 0; x < patch.width; x += kBlock) {
-            const int count = std::min(kBlock, patch.width - x);
-            detail::make_stencils(&row.texels[x], count, level_.width, level_.height, stencils_);
-            for (const detail::Repeat& repeat : patch.repeats) {
-                weigh(repeat, count, repeat.flip_x);
-                const int to_x = detail::mirrored(repeat.flip_x, patch.x + x, count, to_.width());
-                std::copy_n(values_, 3 * count,
-                            to_.faces[repeat.face].at(to_x, row_of(repeat, patch, y)));
-            }
+        patch_ = &patch, y_ = y;
+        sums_.assign(patch.repeats.size(), Vec3d(0.0));
+        const std::vector<RowPlan::Use>& uses = row.uses;
+        std::size_t cell = 0;
+        for (int x = 0; x < patch.width;) {
+            // whole texels up to the next that is cut, then cut ones up to the next whole one
+            const int first_x = x;
+            x = cell < uses.size() ? uses[cell].x : patch.width;
+            append(row.texels.data() + first_x, x - first_x, [&](int i) {
+                return RowPlan::Use{first_x + i, 1};
+            });
+            const std::size_t first = cell;
+            for (; cell < uses.size() && uses[cell].x <= x; ++cell) x = uses[cell].x + 1;
+            append(row.cells.data() + first, static_cast<int>(cell - first),
+                   [&](int i) { return uses[first + i]; });
         }
-        run_cells(patch, y, row);
+        finish_block(patch.width);
     }
 
   private:
-    [[nodiscard]] int row_of(const detail::Repeat& repeat, const detail::Patch& patch,
-                             int y) const {
-        return detail::mirrored(repeat.flip_y, patch.y + y, 1, to_.height());
+    // use_of(i) says what box i is used for.
+    template <class UseOf>
+    void append(const Box* boxes, int count, const UseOf& use_of) {
+        for (int done = 0; done < count;) {
+            const int before = stencils_.count;
+            const int more = detail::append_stencils(boxes + done, count - done, level_.width,
+                                                     level_.height, stencils_, owners_);
+            for (int k = before; k < stencils_.count; ++k) uses_[k] = use_of(done + owners_[k]);
+            done += more;
+            if (done < count) finish_block(use_of(done).x);
+        }
     }
 
-    // A texel's cells may go on in the next block.
-    void run_cells(const detail::Patch& patch, int y, const RowPlan& row) {
-        sums_.assign(patch.repeats.size(), Vec3d(0.0));
-        const int cell_count = static_cast<int>(row.cells.size());
-        for (int first = 0; first < cell_count; first += kBlock) {
-            const int count = std::min(kBlock, cell_count - first);
-            detail::make_stencils(&row.cells[first], count, level_.width, level_.height, stencils_);
-            for (std::size_t r = 0; r < patch.repeats.size(); ++r) {
-                const detail::Repeat& repeat = patch.repeats[r];
-                weigh(repeat, count, false);
-                Image& image = to_.faces[repeat.face];
-                const int to_y = row_of(repeat, patch, y);
-                for (int k = 0; k < count; ++k) {
-                    const RowPlan::Use& use = row.uses[first + k];
-                    const float* value = values_ + 3 * k;
-                    sums_[r] += Vec3d(value[0], value[1], value[2]) * use.weight;
-                    const bool last =
-                        first + k + 1 == cell_count || row.uses[first + k + 1].x != use.x;
-                    if (!last) continue;
-                    const int to_x =
-                        detail::mirrored(repeat.flip_x, patch.x + use.x, 1, to_.width());
-                    image.set_rgb(to_x, to_y, Vec3f(sums_[r]));
-                    sums_[r] = Vec3d(0.0);
-                }
+    // The next stencil is of texel next_x.
+    void finish_block(int next_x) {
+        const int count = stencils_.count;
+        if (count == 0) return;
+        const int first_x = uses_[0].x, last_x = uses_[count - 1].x;
+        const bool goes_on = next_x == last_x;
+        const bool one_each = count == last_x - first_x + 1 && !goes_on && !went_on_;
+        for (std::size_t r = 0; r < patch_->repeats.size(); ++r) {
+            const detail::Repeat& repeat = patch_->repeats[r];
+            if (one_each) {
+                weigh(repeat, repeat.flip_x, result(repeat, first_x, count));
+            } else {
+                weigh(repeat, false, values_);
+                add_up(repeat, next_x, sums_[r]);
             }
         }
+        went_on_ = goes_on;
+        stencils_.clear();
     }
 
-    // Values of the first stencils for a repeat.
-    void weigh(const detail::Repeat& repeat, int count, bool reversed) {
+    // Colours of the stencils for a repeat.
+    void weigh(const detail::Repeat& repeat, bool reversed, float* out) {
         level_.moves = repeat.source;
-        int across[kBlock];
-        const int across_count = detail::weigh(stencils_, count, reversed, level_, values_, across);
-        for (int k = 0; k < across_count; ++k) {
-            const int i = across[k];
-            const Rgbx value = source_.across_edges(stencils_[i], level_);
-            std::memcpy(values_ + 3 * (reversed ? count - 1 - i : i), &value, 3 * sizeof(float));
+        int across[detail::kMostStencils];
+        const int across_count = detail::weigh(stencils_, reversed, level_, out, across);
+        for (int i = 0; i < across_count; ++i) {
+            const int k = across[i];
+            const Rgbx value = source_.across_edges(stencils_, k, level_);
+            std::memcpy(out + 3 * (reversed ? stencils_.count - 1 - k : k), &value,
+                        3 * sizeof(float));
         }
+    }
+
+    void add_up(const detail::Repeat& repeat, int next_x, Vec3d& sum) {
+        for (int k = 0; k < stencils_.count; ++k) {
+            const auto [x, weight] = uses_[k];
+            const float* const value = values_ + 3 * k;
+            sum += Vec3d(value[0], value[1], value[2]) * weight;
+            if (x == (k + 1 < stencils_.count ? uses_[k + 1].x : next_x)) continue;
+            std::ranges::copy(std::array{static_cast<float>(sum.x), static_cast<float>(sum.y),
+                                         static_cast<float>(sum.z)},
+                              result(repeat, x, 1));
+            sum = Vec3d(0.0);
+        }
+    }
+
+    // Where `count` texels of the row from x on belong.
+    [[nodiscard]] float* result(const detail::Repeat& repeat, int x, int count) const {
+        const int to_x = detail::mirrored(repeat.flip_x, patch_->x + x, count, to_.width()),
+                  to_y = detail::mirrored(repeat.flip_y, patch_->y + y_, 1, to_.height());
+        return to_.faces[repeat.face].at(to_x, to_y);
     }
 
     const Source& source_;
-    Level& to_;
     MovedLevel level_;
-    Stencil stencils_[kBlock];
-    float values_[3 * kBlock + 1];
+    Level& to_;
+    const detail::Patch* patch_ = nullptr;
+    int y_ = 0;
+    Stencils stencils_;
+    int owners_[detail::kMostStencils];
+    RowPlan::Use uses_[detail::kMostStencils];
+    bool went_on_ = false;  // the first texel had stencils in the last block
+    float values_[3 * detail::kMostStencils];
     std::vector<Vec3d> sums_;  // per repeat
 };
 
@@ -524,17 +555,20 @@ class Resampler::Plan {
             rows_[i].cells.shrink_to_fit();
             rows_[i].uses.shrink_to_fit();
         });
+        magnifies_ = smooth_count() > texel_count(source_shape_);
     }
 
     void run(const EnvironmentMap& source, EnvironmentMap& result, const Progress& progress) const {
         check_shape("the source", source, source_shape_);
         check_shape("the result", result, target_shape_);
         if (copies()) return copy_level(source.levels[0], result.levels[0]);
+        MovedLevel from = moved_level(source.levels[0]);
+        const ZeroedFloats slopes = magnifies_ ? find_slopes(from) : ZeroedFloats();
         detail::parallel_for(
             static_cast<std::int64_t>(row_places_.size()),
             [&](std::int64_t i) {
                 const auto [p, y] = row_places_[i];
-                RowRunner runner(*source_, source.levels[0], result.levels[0]);
+                RowRunner runner(*source_, from, result.levels[0]);
                 if (!rows_.empty()) return runner.run(patches_[p], y, rows_[i]);
                 RowPlan row;
                 plan_row(i, row);
@@ -567,6 +601,44 @@ class Resampler::Plan {
     }
     [[nodiscard]] bool copies() const { return source_shape_ == target_shape_; }
 
+    [[nodiscard]] std::int64_t smooth_count() const {
+        std::int64_t sum = 0;
+        for (std::size_t i = 0; i < rows_.size(); ++i)
+            sum += std::ranges::count(rows_[i].texels, BoxKind::smooth, &Box::kind) *
+                   std::ssize(patches_[row_places_[i].patch].repeats);
+        return sum;
+    }
+    static std::int64_t texel_count(const MapShape& shape) {
+        const detail::Grid size = grid(shape);
+        return std::int64_t{size.width} * size.height * face_count(shape.projection);
+    }
+
+    static MovedLevel moved_level(const Level& level) {
+        MovedLevel moved;
+        for (std::size_t face = 0; face < level.faces.size(); ++face)
+            moved.faces[face] = level.faces[face].at(0, 0);
+        moved.width = level.width(), moved.height = level.height();
+        return moved;
+    }
+
+    // Slopes along columns, of all texels but those of the first and last rows, which have none
+    // above or below.
+    [[nodiscard]] ZeroedFloats find_slopes(MovedLevel& level) const {
+        const std::size_t row_size = std::size_t{3} * level.width,
+                          face_size = row_size * level.height;
+        const int faces = face_count(source_shape_.projection),
+                  rows = std::max(level.height - 2, 0);
+        ZeroedFloats slopes(face_size * faces + 1);  // texels are read as four floats
+        for (int face = 0; face < faces; ++face)
+            level.slopes[face] = slopes.data() + face * face_size;
+        detail::parallel_for(std::int64_t{faces} * rows, [&](std::int64_t i) {
+            const std::size_t face = i / rows, first = (1 + i % rows) * row_size;
+            detail::find_slopes(level.faces[face] + first, level.width,
+                                slopes.data() + face * face_size + first);
+        });
+        return slopes;
+    }
+
     void plan_row(std::int64_t i, RowPlan& row) const {
         const auto [p, y] = row_places_[i];
         RowPlanner(*target_, *source_, solid_angles_, target_width_).plan(patches_[p], y, row);
@@ -580,6 +652,7 @@ class Resampler::Plan {
     std::vector<detail::Patch> patches_;
     std::vector<RowPlace> row_places_;
     std::vector<RowPlan> rows_;  // empty: planned as they are run
+    bool magnifies_ = false;  // so many texels are smooth that slopes are worth finding beforehand
 };
 
 Resampler::Resampler(const MapShape& source, const MapShape& target, Interpolation interpolation) {

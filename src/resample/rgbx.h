@@ -23,6 +23,12 @@ inline Rgbx larger(Rgbx a, Rgbx b) {
     return a > b ? a : b;
 #endif
 }
+inline float smaller(float a, float b) {
+    return a < b ? a : b;
+}
+inline float larger(float a, float b) {
+    return a > b ? a : b;
+}
 inline Rgbx magnitude(Rgbx v) {
     return (Rgbx)((Mask)v & 0x7fffffff);
 }
@@ -39,10 +45,11 @@ inline void store_rgbx(Rgbx value, float* to) {
 /// Twice the slope of the parabola through three neighbours, from the two differences beside the
 /// middle one, as far as monotone: never more than three times the smaller of them (twice that
 /// here), and level at a peak (Fritsch and Carlson 1980).
-inline Rgbx doubled_slope(Rgbx left, Rgbx right) {
-    const Rgbx zero{};
-    const Rgbx most = larger(zero, 6.0f * smaller(left, right)),
-               least = smaller(zero, 6.0f * larger(left, right));
+template <class T>
+inline T doubled_slope(T left, T right) {
+    const T zero{};
+    const T most = larger(zero, 6.0f * smaller(left, right)),
+            least = smaller(zero, 6.0f * larger(left, right));
     return larger(smaller(left + right, most), least);
 }
 

@@ -10,8 +10,7 @@ namespace mirrorball::detail {
 enum class BoxKind : std::uint8_t {
     none,    ///< nothing: an unused texel, or one that is cut into cells
     smooth,  ///< monotone bicubic interpolation at the centre
-    small,   ///< the mean over a box that sees at most 4 x 4 texels
-    large,   ///< the mean over a larger one
+    mean,    ///< the mean over the box
 };
 
 /// Where a box lies on a face, its centre in 2^-32 of the face, its size in 1/8192 texel.
@@ -28,17 +27,26 @@ static_assert(sizeof(Box) == 16);
 inline constexpr double kLargestBox = 7.99;
 inline constexpr double kBoxUnit = 1.0 / 8192;
 
-/// A box's texels, by columns and rows from `column`, `row` on. Of a mean: weights, zero beyond its
-/// own. Of a smooth one: 4 x 4 texels, the four weights of monotone_cubic() along either axis.
-struct Stencil {
-    static constexpr int kMost = 12;
-    BoxKind kind;
-    bool across_edges;                     ///< has texels beyond its face's edges or used part
-    std::int16_t column_count, row_count;  ///< columns by fours
-    int face;
-    /// Where it begins on its face, and where on the face mirrored.
-    int column[2], row[2];
-    float columns[kMost], rows[kMost];
+inline constexpr int kBlock = 128;  ///< texels that are worked on together
+/// Room for the stencils of that many boxes of usual size, or for one more of the largest, which
+/// sees ten texels along either axis.
+inline constexpr int kMostStencils = kBlock + 8;
+
+/// A block of stencils: 4 x 4 texels from `column`, `row` on, and their weights, which are a box or
+/// a part of a larger one. Of a mean: the weights of columns and rows. Of a smooth one: the four
+/// weights of monotone_cubic() along either axis. Of none: nothing.
+struct Stencils {
+    static constexpr int kPadded = kMostStencils + 16;  ///< arrays are read by registers
+
+    int count = 0;
+    int face = -1;  ///< of all of them; those of kind none have no face
+    BoxKind kind[kMostStencils];
+    /// Whether it has texels beyond its face's edges or used part.
+    std::int32_t across_edges[kPadded] = {};
+    std::int32_t column[kPadded] = {}, row[kPadded] = {};
+    float columns[kPadded][4], rows[kPadded][4];
+
+    void clear() { count = 0, face = -1; }
 };
 
 /// A symmetry of the sphere that carries texels of a projection's face to texels: mirrored along s

@@ -38,6 +38,7 @@ inline constexpr const char* kReciprocalModels[] = {
     "charlie:1",
     "plastic:0.8,roughness=0.4",
     "0.4*lambert + 0.3*phong:20 + 0.2*ggx:0.5",
+    "0.5*banks:10 + 0.5*plastic:0.5",
     "0.4*lambert + 0.3/0.2/0.1*mirror:index=1.5 + 0.2*phong:20",
 };
 inline constexpr const char* kLewis = "phong-lewis:30";

@@ -68,6 +68,14 @@ TEST(Brdf, ValuesByHand) {
     // all at the normal the two agree
     EXPECT_NEAR(parse_brdf("ward:0.5").evaluate(kNormal, kNormal).x,
                 parse_brdf("ward-original:0.5").evaluate(kNormal, kNormal).x, 1e-12);
+    // and away from there, as printed: e |s|^2 / (pi ax ay s.z^4), e / (4 pi ax ay sqrt(z z'))
+    const Vec3d a = direction(20, 1), b = direction(50, 3), s = a + b;
+    const double ax = 0.36, ay = 0.49;
+    const double e = std::exp(-(std::pow(s.x / s.z / ax, 2) + std::pow(s.y / s.z / ay, 2)));
+    EXPECT_NEAR(parse_brdf("ward:roughness-x=0.6,roughness-y=0.7").evaluate(a, b).x,
+                e * s.dot(s) / (kPi * ax * ay * std::pow(s.z, 4)), 1e-12);
+    EXPECT_NEAR(parse_brdf("ward-original:roughness-x=0.6,roughness-y=0.7").evaluate(a, b).x,
+                e / (4 * kPi * ax * ay * std::sqrt(a.z * b.z)), 1e-12);
     // Banks: fibres along x, mirrored across them, and across the cone
     EXPECT_NEAR(parse_brdf("banks:7").evaluate(wi, wo).x,
                 parse_brdf("banks:7").evaluate(kNormal, kNormal).x, 1e-12);
@@ -260,9 +268,9 @@ TEST(Brdf, PlasticOverWhiteKeepsAllLight) {
     for (const char* text :
          {"plastic:1,roughness=0", "plastic:1,roughness=0.1", "plastic:1,roughness=0.5",
           "plastic:1,roughness=1", "plastic:1,roughness=0.3,f0=0.3/0.6/0.9"}) {
+        const Brdf brdf = parse_brdf(text);
         for (const double angle : {0.0, 50.0, 80.0, 88.0}) {
-            const Integral albedo =
-                directional_albedo(parse_brdf(text), direction(angle, 0), 1 << 17);
+            const Integral albedo = directional_albedo(brdf, direction(angle, 0), 1 << 15);
             // 2e-3: straight lines between 97 albedos, each of 2048 points
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(albedo.value[c], 1, 2e-3 + 4 * albedo.error) << text << " " << angle;
@@ -291,14 +299,15 @@ TEST(Brdf, LightsOfEquation15) {
 }
 
 TEST(Brdf, LawsKeptAndBroken) {
-    const BrdfCheckOptions quick{.pair_count = 4096, .point_count = 4096};
+    const BrdfCheckOptions quick{.pair_count = 4096, .point_count = 2048};
     for (const char* text : kReciprocalModels) {
         const BrdfProperties p = measure_brdf(parse_brdf(text), quick);
         EXPECT_TRUE(p.is_reciprocal()) << text << " " << p.reciprocity.largest;
         EXPECT_TRUE(p.is_positive()) << text;
-        EXPECT_TRUE(p.conserves_energy()) << text << " " << p.brightest().albedo.value.x;
         const std::string name(text);
-        const bool anisotropic = name.starts_with("banks") ||
+        EXPECT_EQ(p.conserves_energy(), !name.starts_with("ward-original"))
+            << text << " " << p.brightest().albedo.value.x;
+        const bool anisotropic = name.find("banks") != std::string::npos ||
                                  name.find("ky=-0.6") != std::string::npos ||
                                  name.find("roughness-x") != std::string::npos;
         EXPECT_EQ(p.is_isotropic(), !anisotropic) << text << " " << p.isotropy.largest;
@@ -311,7 +320,7 @@ TEST(Brdf, LawsKeptAndBroken) {
     EXPECT_GT(lewis.reciprocity.largest, 0.5);
     EXPECT_FALSE(lewis.is_reciprocal());
     EXPECT_FALSE(lewis.conserves_energy());
-    EXPECT_NEAR(lewis.brightest().theta, 89.5 * kPi / 180, 1e-12);
+    EXPECT_NEAR(lewis.brightest().theta, 89.999 * kPi / 180, 1e-12);
     EXPECT_FALSE(measure_brdf(parse_brdf("phong-plain:2"), quick).conserves_energy());
     EXPECT_TRUE(measure_brdf(parse_brdf("phong-plain:5"), quick).conserves_energy());
     EXPECT_FALSE(measure_brdf(parse_brdf("charlie:0.1"), quick).conserves_energy());

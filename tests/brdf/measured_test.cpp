@@ -31,7 +31,7 @@ constexpr double kUnits[] = {1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
 // A smooth highlight on a diffuse base, in the coordinates of the format; each channel its own.
 double formula(double half, double difference, double azimuth, int channel) {
     return 0.1 * (channel + 1) + 2 * std::exp(-half * half / 0.05) +
-           0.05 * difference * (1 + 0.3 * std::cos(2 * azimuth));
+           0.05 * difference * (1 + 0.3 * std::cos(2 * azimuth - 1));
 }
 
 // A file of the formula at the centres of its cells, written once for all tests; those beyond 80

@@ -67,7 +67,8 @@ TEST(BrdfVerb, DrawsPlots) {
     EXPECT_NE(contents(lobe).find("mirror 0.1"), std::string::npos);
     // black and a bare mirror have no lobe, and are drawn all the same
     for (const char* name : {"lambert:0", "mirror"}) {
-        EXPECT_EQ(run({"brdf", name, "--plot", polar, "--hemisphere", lobe, "--albedo", albedo}).code, 0);
+        EXPECT_EQ(
+            run({"brdf", name, "--plot", polar, "--hemisphere", lobe, "--albedo", albedo}).code, 0);
         EXPECT_EQ(contents(polar).find("nan"), std::string::npos) << name;
         EXPECT_EQ(contents(lobe).find("nan"), std::string::npos) << name;
     }
