@@ -12,6 +12,7 @@
 #include <mirrorball/error.h>
 
 #include "brdf_plots.h"
+#include "brdf_text.h"
 #include "output.h"
 #include "progress.h"
 #include "verbs.h"
@@ -151,7 +152,7 @@ int run(const Options& options, const Shared& shared) {
     if (options.list) return print_list(shared);
     if (options.name.empty())
         throw Error(Errc::usage, "NAME is missing; see mirrorball brdf --list");
-    const Brdf brdf = parse_brdf(options.name);
+    const Brdf brdf = read_brdf(options.name);
     bool plotted = false;
     const auto plot = [&](const std::string& file, const std::function<std::string()>& draw) {
         if (file.empty()) return;
@@ -166,14 +167,6 @@ int run(const Options& options, const Shared& shared) {
     plot(options.albedo, [&] { return albedo_plot(brdf, options.name); });
     if (!plotted || options.check || shared.json) print_figures(brdf, options, shared);
     return 0;
-}
-
-Choices brdf_choices() {
-    Choices choices;
-    for (const BrdfName& name : brdf_models())
-        choices.values.push_back(name.parameters == "FILE" ? name.name + ":" : name.name);
-    for (const BrdfName& name : brdf_presets()) choices.values.push_back(name.name);
-    return choices;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // mirrorball prefilter: an environment blurred by one lobe, or by one per level.
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -7,8 +8,10 @@
 
 #include <mirrorball/error.h>
 #include <mirrorball/prefilter.h>
+#include <mirrorball/view_lobe.h>
 
 #include "batch.h"
+#include "brdf_text.h"
 #include "chain.h"
 #include "plans.h"
 #include "targets.h"
@@ -23,12 +26,15 @@ struct Options {
     std::string output, ending, lobe, mapping;
     Projection projection = Projection::cube;
     int size = 0, levels = 0;
+    double view = -1;      // degrees to the normal, the usual where negative
     double tolerance = 0;  // the library's where 0
     bool reference = false;
     MapWriteOptions write;
 };
 
 constexpr int kUsualSize = 256, kUsualDiffuseSize = 64;
+constexpr double kUsualView = 45;
+constexpr std::string_view kBrdfPrefix = "brdf:";
 constexpr const char* kUsualEnding = ".ktx2";
 
 int usual_size(const std::string& lobe, Projection projection) {
@@ -58,11 +64,59 @@ Batch batch_of(const Options& options) {
     return {{{options.sources.front(), options.output}}, ""};
 }
 
-std::vector<PrefilterTarget> targets_of(const Options& options, const Batch& batch) {
+// If the lobe is a BRDF seen from somewhere.
+std::optional<ViewLobe> view_lobe_of(const Options& options) {
+    if (!options.lobe.starts_with(kBrdfPrefix)) {
+        if (options.view < 0) return {};
+        throw Error(Errc::usage,
+                    fmt::format("--view is for --lobe brdf:..., found --lobe {}", options.lobe));
+    }
+    const Brdf brdf = read_brdf(options.lobe.substr(kBrdfPrefix.size()));
+    const double theta = (options.view < 0 ? kUsualView : options.view) * kPi / 180;
+    const ViewLobe lobe = fit_view_lobe(brdf, {std::sin(theta), 0, std::cos(theta)});
+    if (lobe.albedo == Vec3d(0)) {
+        throw Error(Errc::usage, fmt::format("--lobe {}: nothing is reflected but by a mirror, "
+                                             "which --lobe mirror is for",
+                                             options.lobe));
+    }
+    return lobe;
+}
+
+// What the BRDF makes of uniform light, it makes of all.
+void apply_albedo(const ViewLobe& lobe, EnvironmentMap& map) {
+    for (Image& face : map.levels[0].faces) {
+        const std::span<float> values = face.values();
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] *= static_cast<float>(lobe.albedo[static_cast<int>(i % 3)]);
+    }
+}
+
+double axis_degrees(const ViewLobe& lobe) {
+    return std::atan2(-lobe.axis.x, lobe.axis.z) * 180 / kPi;
+}
+
+std::string fit_text(const ViewLobe& lobe) {
+    return fmt::format(
+        "about an axis {:.1f}° off the normal, away from the view; times the albedo "
+        "{}; off by {:.2g} of the BRDF's rms{}\n",
+        axis_degrees(lobe), figures(lobe.albedo), lobe.fit_error,
+        lobe.mirror == Vec3d(0) ? "" : "; without its mirror");
+}
+
+Json fit_json(const ViewLobe& lobe) {
+    return {{"axis_degrees", axis_degrees(lobe)},
+            {"albedo", to_json(lobe.albedo)},
+            {"mirror", to_json(lobe.mirror)},
+            {"fit_error", lobe.fit_error}};
+}
+
+std::vector<PrefilterTarget> targets_of(const Options& options, const Batch& batch,
+                                        const std::optional<ViewLobe>& view) {
     const int size = options.size > 0 ? options.size : usual_size(options.lobe, options.projection);
     check_size(options.projection, size);
     const int levels = options.levels > 0 ? options.levels : usual_level_count(size);
-    const auto lobes = parse_lobes(options.lobe, options.mapping, levels);
+    const auto lobes =
+        view ? std::vector{view->lobe} : parse_lobes(options.lobe, options.mapping, levels);
     const std::string& output = batch.jobs.front().output;
     if (lobes.size() > 1 && !holds_levels(output)) {
         throw Error(Errc::usage,
@@ -103,8 +157,8 @@ std::string error_text(const std::vector<double>& errors) {
     return text + "\n";
 }
 
-Json run_one(const Job& job, const Options& options, Plans& plans, ProgressBar& bar,
-             const Shared& shared) {
+Json run_one(const Job& job, const Options& options, const std::optional<ViewLobe>& view,
+             Plans& plans, ProgressBar& bar, const Shared& shared) {
     const std::uint64_t result_bytes = bytes_needed(plans.targets());
     const std::uint64_t source_bytes = (shared.memory_limit - result_bytes) / kSourceWork;
     const EnvironmentMap source =
@@ -113,23 +167,27 @@ Json run_one(const Job& job, const Options& options, Plans& plans, ProgressBar& 
     Prefiltered result = options.reference
                              ? reference_levels(source, plans.targets(), bar)
                              : plans.plan_for(source)(source, bar.stage("Prefiltering"));
-    const EnvironmentMap map = join_levels(std::move(result.maps));
+    EnvironmentMap map = join_levels(std::move(result.maps));
+    if (view) apply_albedo(*view, map);
     const WriteReport written = write_map(job.output, map, options.write);
     bar.hide();
     tell_clipped(job.output, written, shared);
     if (!shared.json && !shared.quiet)
-        print(written_text(job.output, map, written) + error_text(result.errors));
+        print(written_text(job.output, map, written) + error_text(result.errors) +
+              (view ? fit_text(*view) : ""));
     Json json = to_json(job.output, map, written);
     if (!options.reference) json["estimated_errors"] = result.errors;
+    if (view) json["brdf"] = fit_json(*view);
     return json;
 }
 
 int run(const Options& options, const Shared& shared) {
     const Batch batch = batch_of(options);
-    Plans plans(targets_of(options, batch), prefilter_options(options));
+    const std::optional<ViewLobe> view = view_lobe_of(options);
+    Plans plans(targets_of(options, batch, view), prefilter_options(options));
     check_memory(bytes_needed(plans.targets()), "the result", shared);
     return run_batch(batch, shared, [&](const Job& job, ProgressBar& bar) {
-        return run_one(job, options, plans, bar, shared);
+        return run_one(job, options, view, plans, bar, shared);
     });
 }
 
@@ -147,8 +205,9 @@ Command prefilter_command(Shared& shared) {
         {"--lobe", "LOBE",
          "mirror, diffuse, phong:N, blinn-phong:N, ggx:ROUGHNESS, charlie:ROUGHNESS or table:FILE "
          "(lines of degrees and weight); ggx, phong or charlie alone is a whole chain, and a list "
-         "(ggx:0.1,0.25,0.5) one lobe per level",
+         "(ggx:0.1,0.25,0.5) one lobe per level; brdf:BRDF is what a view of it makes of light",
          text(options->lobe), lobe_choices(), true},
+        {"--view", "DEGREES", "to the normal, for brdf: [45]", real_number(options->view, 0, 89)},
         {"--mapping", "PRESET", "of the chain's levels [gltf; playcanvas for phong]",
          text(options->mapping), mapping_choices()},
         {"--levels", "N", "of the chain [down to 16 texels]", whole_number(options->levels, 2, 21)},
@@ -166,6 +225,10 @@ Command prefilter_command(Shared& shared) {
         "Level i of a chain has half the size of level i - 1. A lobe is about the "
         "reflection vector, diffuse about the normal; diffuse is irradiance, not "
         "divided by pi.",
+        "brdf: takes what mirrorball brdf does, or a measured file, as a lobe about its own axis, "
+        "which lies in the plane of view and normal and is printed; the map is the radiance that "
+        "is "
+        "reflected. Mirrors in it are left out. For all views at once: mirrorball view-stack.",
         kBatchNote,
         "The estimated error is of each level by itself, rms over rms; 0 where it is the source, "
         "resampled. See docs/theory/spectral-prefiltering.md."};
@@ -173,7 +236,9 @@ Command prefilter_command(Shared& shared) {
         "mirrorball prefilter studio.hdr -o diffuse.ktx2 --lobe diffuse",
         "mirrorball prefilter studio.hdr -o specular.ktx2 --lobe ggx --mapping gltf",
         "mirrorball prefilter skies/*.hdr -o specular/ --lobe ggx --tolerance 1e-3",
-        "mirrorball prefilter studio.hdr -o shiny.exr --lobe phong:100 --to equirect"};
+        "mirrorball prefilter studio.hdr -o shiny.exr --lobe phong:100 --to equirect",
+        "mirrorball prefilter studio.hdr -o paint.ktx2 --lobe brdf:paint.binary --view 60",
+        "mirrorball prefilter studio.hdr -o gold.ktx2 --lobe 'brdf:brushed gold'"};
     command.run = [options, &shared] { return run(*options, shared); };
     return command;
 }

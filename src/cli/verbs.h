@@ -19,6 +19,7 @@ namespace mirrorball::cli {
 [[nodiscard]] Command brdf_command(Shared& shared);
 [[nodiscard]] Command fresnel_command(Shared& shared);
 [[nodiscard]] Command dfg_command(Shared& shared);
+[[nodiscard]] Command view_stack_command(Shared& shared);
 /// The script for the shell, from the table of all commands.
 [[nodiscard]] Command completion_command(Shared& shared, const std::vector<Command>& commands);
 
