@@ -13,6 +13,7 @@
 #include "batch.h"
 #include "chain.h"
 #include "interrupt.h"
+#include "targets.h"
 #include "verbs.h"
 
 namespace mirrorball::cli {
@@ -178,11 +179,7 @@ Command bake_command(Shared& shared) {
         {"--fresnel", "SURFACE",
          "of the Fresnel map: index=N, metal=NAME, n=N,k=K or f0=F; under ,coat=N [index=1.5]",
          parsed(options->fresnel, parse_fresnel), surface_choices()},
-        {"--format",
-         "FORMAT",
-         "of a texel [rgba16f]",
-         parsed(options->format, parse_texel_format),
-         {{"rgba16f", "rgba32f", "rgb9e5", "r11g11b10f"}, true}}};
+        ktx2_format_option(options->format)};
     add_input_options(command, options->input);
     add_shared_options(command, shared);
     command.notes = {

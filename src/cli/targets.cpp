@@ -21,6 +21,14 @@ void add_write_options(Command& command, MapWriteOptions& options) {
                              parsed(options.layout, parse_layout), layout_choices()}});
 }
 
+Option ktx2_format_option(TexelFormat& format) {
+    return {"--format",
+            "FORMAT",
+            "of a texel [rgba16f]",
+            parsed(format, parse_texel_format),
+            {{"rgba16f", "rgba32f", "rgb9e5", "r11g11b10f"}, true}};
+}
+
 std::string output_help() {
     std::string endings;
     for (const FormatInfo& format : formats()) {

@@ -11,6 +11,8 @@ namespace mirrorball::cli {
 
 /// --format and --layout.
 void add_write_options(Command& command, MapWriteOptions& options);
+/// --format where all results are .ktx2 files.
+[[nodiscard]] Option ktx2_format_option(TexelFormat& format);
 /// Help of -o: the endings that maps can be written to.
 [[nodiscard]] std::string output_help();
 

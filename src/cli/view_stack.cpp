@@ -16,6 +16,7 @@
 #include "output.h"
 #include "plans.h"
 #include "progress.h"
+#include "targets.h"
 #include "verbs.h"
 
 namespace mirrorball::cli {
@@ -141,11 +142,7 @@ Command view_stack_command(Shared& shared) {
         {"--checks", "N", "views that the fit is compared at with the integral [128]",
          whole_number(options->checks, 1, 65536)},
         tolerance_option(options->tolerance),
-        {"--format",
-         "FORMAT",
-         "of a texel [rgba16f]",
-         parsed(options->format, parse_texel_format),
-         {{"rgba16f", "rgba32f", "rgb9e5", "r11g11b10f"}, true}}};
+        ktx2_format_option(options->format)};
     add_input_options(command, options->input);
     add_shared_options(command, shared);
     command.notes = {
