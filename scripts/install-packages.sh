@@ -28,6 +28,11 @@ build   libhwy-dev             Highway: vector code for every processor from one
 build   libfmt-dev             messages (g++ 12 has no std::format)
 build   libcli11-dev           the program's options
 build   nlohmann-json3-dev     bake.json and the output of --json
+build   libtinyobjloader-dev   OBJ meshes
+build   libtinygltf-dev        glTF meshes
+build   libepoxy-dev           OpenGL and EGL, loaded when they are used
+test    libgl1-mesa-dri        an OpenGL driver that needs no graphics card
+test    libegl1                OpenGL without a window
 test    libgtest-dev           the tests
 bench   libbenchmark-dev       the benchmarks
 fuzz    clang                  libFuzzer comes with it

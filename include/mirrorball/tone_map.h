@@ -5,6 +5,9 @@
 
 namespace mirrorball {
 
+/// The curves there are; formulas at tone_mapped().
+enum class ToneMap { none, reinhard, aces, agx, film };
+
 /// A film-like curve per channel, an S over the logarithm of the light, with x = exposure *
 /// radiance:
 ///

@@ -1,0 +1,81 @@
+// Meshes: triangles with normals, built in or read from OBJ and glTF files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <mirrorball/vector.h>
+
+namespace mirrorball {
+
+/// Triangles, counter-clockwise seen from outside. Vertices of one index are one vertex: where a
+/// surface has an edge, its two sides have vertices of their own.
+struct Mesh {
+    std::vector<Vec3f> positions;
+    std::vector<Vec3f> normals;              ///< unit, one per position
+    std::vector<Vec2f> texture_coordinates;  ///< one per position, or none; (0, 0) is top left
+    std::vector<std::uint32_t> indices;      ///< three per triangle
+
+    [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
+};
+
+/// The smallest box with sides along the axes. \pre the mesh has a vertex
+struct Bounds {
+    Vec3d least, most;
+
+    [[nodiscard]] Vec3d centre() const { return (least + most) * 0.5; }
+    [[nodiscard]] double radius() const { return (most - least).length() * 0.5; }
+};
+[[nodiscard]] Bounds bounds(const Mesh& mesh);
+
+/// Meshes that need no file, around the origin, with texture coordinates:
+///
+///     sphere   radius 1; poles on y
+///     torus    about y; radius 1 to the middle of a tube of radius 0.4
+///     plane    -1 to 1 in x and z, facing +y
+///     cube     -1 to 1; flat faces
+///     teapot   Newell's, spout towards +x, 2 wide; from his control points, smooth normals
+struct BuiltinMesh {
+    std::string name, description;
+};
+[[nodiscard]] std::vector<BuiltinMesh> builtin_meshes();
+
+/// `detail` is the number of segments per quarter turn of a sphere and of the torus's tube, per
+/// edge of plane and cube, and per edge of a patch of the teapot; 0 takes what looks smooth.
+/// \throws Error(Errc::usage) naming the meshes there are, or unless 0 <= detail <= 512
+[[nodiscard]] Mesh make_mesh(std::string_view name, int detail = 0);
+
+struct MeshReadOptions {
+    std::uint64_t memory_limit = std::numeric_limits<std::uint64_t>::max();  ///< bytes, roughly
+};
+
+/// OBJ (.obj), glTF (.gltf, .glb): all triangles of the file's default scene, transformed, as one
+/// mesh. Polygons are cut into triangles. Normals that are missing are made: the mean of those of
+/// the faces around a position, weighted by their angles there.
+/// \throws Error(Errc::cannot_read) naming the file, what was found and what was expected
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path,
+                             const MeshReadOptions& options = {});
+
+/// The normals that read_mesh() makes. Positions that are equal share one, whatever their indices.
+[[nodiscard]] std::vector<Vec3f> smooth_normals(const Mesh& mesh);
+
+/// A mesh whose triangles each reflect into one face of a cube: section 2 of the survey.
+///
+/// The reflection vector r is found at the vertices and is linear in between, so the places of a
+/// triangle that reflect into one face are a convex polygon, cut out here. On it a plain 2-D
+/// texture of that face, looked up projectively, shows the very thing that the cube map indexed by
+/// the interpolated r would.
+struct SplitMesh {
+    std::vector<Vec3f> positions;  ///< of the world
+    std::vector<Vec3f> normals;
+    /// (s q, t q, q) with q > 0: what a projective lookup divides. (0, 0) is the face's top left.
+    std::vector<Vec3f> texture_coordinates;
+    /// Triangles by face, in the order +X -X +Y -Y +Z -Z of the cube's own frame.
+    std::vector<std::uint32_t> indices[6];
+};
+
+}  // namespace mirrorball

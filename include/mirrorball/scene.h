@@ -1,0 +1,145 @@
+// Scene: what a picture shows, as plain data. Meshes, pictures and environments are named here and
+// loaded elsewhere (scene_assets.h); the same as a JSON file: scene_file.h, docs/scene.md.
+//
+// The world is right-handed, +X right, +Y up; lengths are metres, angles radians, colours
+// scene-linear. Directions and equations are the survey's: n the normal, v to the eye, r mirrored.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <mirrorball/fresnel.h>
+#include <mirrorball/lobe.h>
+#include <mirrorball/projection.h>
+#include <mirrorball/tone_map.h>
+#include <mirrorball/vector.h>
+
+namespace mirrorball {
+
+/// How the light of a layer of mirror and the diffuse base under it come together.
+enum class Coupling {
+    added,      ///< Eq. 20: F L_layer + L_diffuse
+    layered,    ///< Eq. 21: F L_layer + (1 - F) L_diffuse
+    split_sum,  ///< (F0 A + F90 B) L_layer, as rough surfaces reflect, and the base gets the rest
+};
+
+/// The survey's figure 4.1, each term with its weight, and F the Fresnel term:
+///
+///     L_layer    = mirror L(r) + glossy L_lobe(r)
+///     L_diffuse  = diffuse base_color E(n) / pi
+///     L_glass    = transmission base_color (1 - F) L(t),  t refracted by `index`
+///
+/// L is the environment, L_lobe the same prefiltered by `lobe`, E its irradiance.
+struct Material {
+    Vec3d base_color{1};         ///< 0 to 1
+    std::string base_color_map;  ///< a picture that multiplies it, by texture coordinates; or none
+    double mirror = 1, glossy = 0, diffuse = 0, transmission = 0;  ///< 0 to 1
+    /// Of the glossy term: phong, blinn-phong, ggx or charlie. \see Lobe
+    Lobe lobe{Lobe::Kind::ggx, 0.3, nullptr};
+    Fresnel fresnel;  ///< 1 at every angle unless it is said
+    Coupling coupling = Coupling::layered;
+    double index = 1.5;  ///< of refraction, for `transmission`
+};
+
+/// Scale, then turn as rotated() of axes.h turns, then move.
+struct Transform {
+    Vec3d position{0};
+    double yaw = 0, pitch = 0, roll = 0;
+    Vec3d scale{1};  ///< not 0
+
+    [[nodiscard]] Vec3d point(const Vec3d& p) const;
+    /// Unit, if `n` is.
+    [[nodiscard]] Vec3d normal(const Vec3d& n) const;
+};
+
+/// A map of what is around an object, made anew for every picture from where the object is.
+struct DynamicReflection {
+    int size = 256;           ///< edge of a face in texels, 16 to 4096
+    int faces_per_frame = 6;  ///< 1 to 6: how many are drawn anew for each picture
+    int bounces = 1;          ///< 1 to 8: how often light goes to and fro between such objects
+};
+
+struct SceneObject {
+    std::string name;
+    std::string mesh = "sphere";  ///< of builtin_meshes(), or a file
+    Transform transform;
+    Material material;
+    std::optional<DynamicReflection> dynamic;  ///< else it reflects the environment
+};
+
+/// What stands in for the geometry around a map that was captured in a room, so that it is not seen
+/// as if infinitely far away: a ray meets the proxy, and the map is asked for the direction from
+/// where it was captured to there.
+struct BoxProxy {
+    Vec3d least{-1}, most{1};
+};
+struct SphereProxy {
+    Vec3d centre{0};
+    double radius = 1;
+};
+using Proxy = std::variant<std::monostate, BoxProxy, SphereProxy>;
+
+struct SceneEnvironment {
+    std::string source = "builtin:sunset";  ///< as read_map() takes it
+    double yaw = 0, pitch = 0, roll = 0;    ///< as rotated() of axes.h
+    double intensity = 1;                   ///< multiplies its radiance
+    bool background = true;                 ///< is it seen behind the objects?
+    Vec3d background_color{0};              ///< where it is not
+    Proxy proxy;
+    Vec3d captured_at{0};  ///< where the map was taken; matters with a proxy only
+};
+
+struct ScenePointLight {
+    Vec3d position{0, 3, 0};
+    Vec3d intensity{10};  ///< W/sr
+};
+struct SceneDirectionalLight {
+    Vec3d direction{0, 1, 0};    ///< towards the light; any length but 0
+    Vec3d normal_irradiance{1};  ///< W/m^2
+};
+using SceneLight = std::variant<ScenePointLight, SceneDirectionalLight>;
+
+struct Camera {
+    Vec3d eye{0, 0, 5}, target{0}, up{0, 1, 0};
+    double field_of_view = 0.6;  ///< vertical
+};
+
+/// How reflections are looked up: sections 2 and 3 of the survey. name() and parse_method() spell
+/// them as below, with - for _. docs/rendering.md shows each.
+enum class Method {
+    sphere,                  ///< per pixel, map re-made for the camera
+    sphere_vertex,           ///< the same per vertex, as glTexGen's GL_SPHERE_MAP
+    sphere_stale,            ///< per pixel, map left as made for a camera that looks along -z
+    cube,                    ///< per pixel
+    cube_vertex,             ///< r per vertex, interpolated: GL_REFLECTION_MAP
+    cube_seams,              ///< per pixel, faces filtered apart from each other
+    cube_split,              ///< polygons cut where they reflect into two faces; 2-D textures
+    dual_paraboloid,         ///< per pixel
+    dual_paraboloid_vertex,  ///< per vertex by the matrices of Eq. 4-7, both maps in one pass
+    dual_paraboloid_passes,  ///< the same in two passes, each masked by its map's disc
+    equirect,                ///< per pixel
+    octahedral,              ///< per pixel
+};
+[[nodiscard]] std::vector<Method> all_methods();
+[[nodiscard]] std::string_view name(Method method);
+[[nodiscard]] std::string_view describe(Method method);
+/// \throws Error(Errc::usage) naming the methods there are
+[[nodiscard]] Method parse_method(std::string_view name);
+/// The projection whose maps it looks up.
+[[nodiscard]] Projection projection_of(Method method);
+
+struct Scene {
+    std::vector<SceneObject> objects;
+    SceneEnvironment environment;
+    std::vector<SceneLight> lights;
+    Camera camera;
+    Method method = Method::cube;
+    int map_size = 0;     ///< of the map that mirrors show; 0: as fine as the environment
+    double exposure = 0;  ///< 0: the environment's usual_exposure()
+    ToneMap tone_map = ToneMap::film;
+};
+
+}  // namespace mirrorball

@@ -1,0 +1,17 @@
+#include <gtest/gtest.h>
+
+#include <mirrorball/gl/context.h>
+
+namespace mirrorball::gl {
+namespace {
+
+TEST(Context, GivesEachOfTheThreeKinds) {
+    for (const Api api : {Api::core, Api::es, Api::compatibility}) {
+        const Context context(api);
+        EXPECT_FALSE(driver().version.empty());
+        EXPECT_EQ(driver().es, api == Api::es);
+    }
+}
+
+}  // namespace
+}  // namespace mirrorball::gl
