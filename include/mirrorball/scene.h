@@ -11,6 +11,9 @@
 #include <variant>
 #include <vector>
 
+#include <ImathMatrix.h>
+
+#include <mirrorball/axes.h>
 #include <mirrorball/fresnel.h>
 #include <mirrorball/lobe.h>
 #include <mirrorball/projection.h>
@@ -51,9 +54,12 @@ struct Transform {
     Vec3d scale{1};  ///< not 0
 
     [[nodiscard]] Vec3d point(const Vec3d& p) const;
-    /// Unit, if `n` is.
+    /// Of the surface thus moved, unit.
     [[nodiscard]] Vec3d normal(const Vec3d& n) const;
 };
+/// The same for row vectors, as Imath multiplies: p * matrix(t) == t.point(p). Its sixteen numbers
+/// in their order are those of OpenGL's matrix for columns.
+[[nodiscard]] Imath::M44d matrix(const Transform& transform);
 
 /// A map of what is around an object, made anew for every picture from where the object is.
 struct DynamicReflection {
@@ -106,6 +112,17 @@ struct Camera {
     Vec3d eye{0, 0, 5}, target{0}, up{0, 1, 0};
     double field_of_view = 0.6;  ///< vertical
 };
+/// x to the right, y upwards, z back towards the eye: right-handed, unit, in the world. `up` only
+/// needs to be roughly so; any will do if one looks along it. \pre eye != target
+[[nodiscard]] Axes axes(const Camera& camera);
+/// The unit direction from the eye through a point of the picture: x from 0 to 1 to the right, y
+/// down; `aspect` is width over height.
+[[nodiscard]] Vec3d view_ray(const Camera& camera, double x, double y, double aspect);
+/// Looks at the middle of the ball around `bounds` from `yaw` to the right of +z and `pitch` above,
+/// so far away that the ball fits.
+struct Bounds;
+[[nodiscard]] Camera framing(const Bounds& bounds, double aspect = 1, double yaw = 0.45,
+                             double pitch = 0.3);
 
 /// How reflections are looked up: sections 2 and 3 of the survey. name() and parse_method() spell
 /// them as below, with - for _. docs/rendering.md shows each.
