@@ -7,6 +7,8 @@
 #include "lookup_equirect.glsl"
 #elif METHOD == OCTAHEDRAL
 #include "lookup_octahedral.glsl"
+#elif METHOD == CUBE_SEAMS
+#include "lookup_faces.glsl"
 #else
 #include "lookup_cube.glsl"
 #endif

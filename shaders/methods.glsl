@@ -8,6 +8,7 @@
 #define DUAL_PARABOLOID_VERTEX 6
 #define EQUIRECT 7
 #define OCTAHEDRAL 8
+#define CUBE_SEAMS 9
 
 // Those that find the place on the map at the vertices only.
 #define PER_VERTEX (METHOD == SPHERE_VERTEX || METHOD == CUBE_VERTEX || METHOD == CUBE_SPLIT || \

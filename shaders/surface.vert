@@ -11,6 +11,9 @@ uniform mat4 u_to_world, u_to_clip;  // to_clip from the world
 uniform mat3 u_normal_to_world;
 uniform vec3 u_eye;
 
+// Passes over one object have to meet the same pixels at the same depths.
+invariant gl_Position;
+
 out vec3 v_position;  // world
 out vec3 v_normal;
 out vec2 v_texture_coordinate;

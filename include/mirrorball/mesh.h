@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <mirrorball/axes.h>
 #include <mirrorball/vector.h>
 
 namespace mirrorball {
@@ -53,14 +54,16 @@ struct MeshReadOptions {
     std::uint64_t memory_limit = std::numeric_limits<std::uint64_t>::max();  ///< bytes, roughly
 };
 
-/// OBJ (.obj), glTF (.gltf, .glb): all triangles of the file's default scene, transformed, as one
-/// mesh. Polygons are cut into triangles. Normals that are missing are made: the mean of those of
-/// the faces around a position, weighted by their angles there.
+/// OBJ (.obj), glTF 2.0 (.gltf, .glb): all triangles of the file's default scene, transformed, as
+/// one mesh. Polygons are cut into triangles; triangles without area, lines and points are left
+/// out. Normals that are missing or 0 are made: the mean of those of the faces around a position,
+/// weighted by their angles there. Materials, skins, morph targets and animations are passed over.
 /// \throws Error(Errc::cannot_read) naming the file, what was found and what was expected
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path,
                              const MeshReadOptions& options = {});
 
-/// The normals that read_mesh() makes. Positions that are equal share one, whatever their indices.
+/// The normals that read_mesh() makes. Positions that are equal share one, whatever their indices;
+/// where faces cancel out, as the two sides of a sheet do, each has that of a face of its own.
 [[nodiscard]] std::vector<Vec3f> smooth_normals(const Mesh& mesh);
 
 /// A mesh whose triangles each reflect into one face of a cube: section 2 of the survey.
@@ -77,5 +80,13 @@ struct SplitMesh {
     /// Triangles by face, in the order +X -X +Y -Y +Z -Z of the cube's own frame.
     std::vector<std::uint32_t> indices[6];
 };
+
+/// Cuts a mesh whose positions and normals are the world's, as an eye sees it. The cube's frame in
+/// the world is `cube_axes`. What was without gaps stays so: two triangles that share an edge are
+/// cut at the same points of it, to the bit. Normals are interpolated and not made unit again.
+/// About 1 ms for 20000 triangles.
+/// \pre normals are unit
+[[nodiscard]] SplitMesh split_by_cube_face(const Mesh& world_mesh, const Vec3d& eye,
+                                           const Axes& cube_axes);
 
 }  // namespace mirrorball

@@ -1,5 +1,5 @@
-// OpenGL's objects as values that are deleted with their owner. The context that made them has to be
-// current then.
+// OpenGL's objects as values that are deleted with their owner. The context that made them has to
+// be current then.
 #pragma once
 
 #include <cstddef>

@@ -40,6 +40,17 @@ struct Cube {
         return d.z >= 0 ? point(4, d.x, -d.y, az) : point(5, -d.x, -d.y, az);
     }
 
+    /// (s q, t q, q) on a face that need not be the one that d points to: linear in d, and where
+    /// q > 0 their quotients are the point of the face's plane that d points to.
+    template <class T>
+    static Vec3<T> homogeneous(int face, const Vec3<T>& d) {
+        const FaceAxes& f = kFaceAxes[face];
+        const T q = T(f.m[0]) * d.x + T(f.m[1]) * d.y + T(f.m[2]) * d.z;
+        const T a = T(f.a[0]) * d.x + T(f.a[1]) * d.y + T(f.a[2]) * d.z;
+        const T b = T(f.b[0]) * d.x + T(f.b[1]) * d.y + T(f.b[2]) * d.z;
+        return {(a + q) / 2, (b + q) / 2, q};
+    }
+
     template <class T>
     static Vec3<T> direction(const FacePoint<T>& p) {
         const Vec3<T> d = on_cube(p.face, 2 * p.s - 1, 2 * p.t - 1, T(1));
