@@ -2,6 +2,7 @@
 #include <mirrorball/gl/renderer.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -170,6 +171,7 @@ class Renderer::Impl {
     Image picture(const Scene& scene, const PictureOptions& options);
     void draw(const Scene& scene, int width, int height, const Imath::V2d& shift, bool display);
     SurfaceBuffer surfaces(const Scene& scene, int width, int height, const Imath::V2d& shift);
+    std::vector<double> time_frames(const Scene& scene, int width, int height, int count);
     std::uint64_t map_bytes(const Scene& scene) { return maps_for(scene).bytes(); }
 
   private:
@@ -426,6 +428,21 @@ Image Renderer::Impl::picture(const Scene& scene, const PictureOptions& options)
     return sum;
 }
 
+std::vector<double> Renderer::Impl::time_frames(const Scene& scene, int width, int height,
+                                                int count) {
+    using Clock = std::chrono::steady_clock;
+    const Target target(width, height);
+    std::vector<double> seconds;
+    for (int i = -1; i < count; ++i) {  // the first makes ready and does not count
+        target.bind();
+        const Clock::time_point start = Clock::now();
+        draw(scene, width, height, {0, 0}, true);
+        glFinish();
+        if (i >= 0) seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    return seconds;
+}
+
 SurfaceBuffer Renderer::Impl::surfaces(const Scene& scene, int width, int height,
                                        const Imath::V2d& shift) {
     const View view = view_of(scene.camera, static_cast<double>(width) / height,
@@ -485,6 +502,10 @@ void Renderer::draw(const Scene& scene, int width, int height) {
 SurfaceBuffer Renderer::surfaces(const Scene& scene, int width, int height,
                                  const Imath::V2d& shift) {
     return impl_->surfaces(scene, width, height, shift);
+}
+
+std::vector<double> Renderer::time_frames(const Scene& scene, int width, int height, int count) {
+    return impl_->time_frames(scene, width, height, count);
 }
 
 std::uint64_t Renderer::map_bytes(const Scene& scene) {
