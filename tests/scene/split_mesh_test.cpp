@@ -1,5 +1,6 @@
 #include <cmath>
 #include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <mirrorball/axes.h>
@@ -214,6 +215,40 @@ TEST(SplitMesh, VerticesAndEdgesOnWalls) {
             ASSERT_TRUE(edges.contains({edge.second, edge.first})) << eye;
         }
     }
+}
+
+// Two triangles on either side of an edge whose r runs along the wall x = z, exactly: what is
+// symmetric is rounded alike. New points on that edge have x = z too, and are the same for both.
+TEST(SplitMesh, EdgesAlongAWallAreCutAlike) {
+    std::mt19937 random(17);
+    std::normal_distribution<double> gauss;
+    const auto vector = [&] { return Vec3f(Vec3d(gauss(random), gauss(random), gauss(random))); };
+    const auto symmetric = [&] {
+        const Vec3f v = vector();
+        return Vec3f(v.x, v.y, v.x);
+    };
+    int cut_count = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3d eye(symmetric() * 3.0f);
+        const Vec3f ends[2] = {symmetric(), symmetric()};
+        const Vec3f normals[2] = {symmetric().normalized(), symmetric().normalized()};
+        std::set<PositionKey> on_edge[2];
+        for (int side = 0; side < 2; ++side) {
+            Mesh mesh;
+            mesh.positions = {ends[side], ends[1 - side], vector()};
+            mesh.normals = {normals[side], normals[1 - side], vector().normalized()};
+            mesh.indices = {0, 1, 2};
+            const SplitMesh split = split_by_cube_face(mesh, eye, Axes{});
+            ASSERT_NEAR(total_area(split), area(mesh), 1e-5) << i;
+            for (const auto& indices : split.indices)
+                for (const std::uint32_t index : indices)
+                    if (split.positions[index].x == split.positions[index].z)
+                        on_edge[side].insert(key_of(split.positions[index]));
+        }
+        ASSERT_EQ(on_edge[0], on_edge[1]) << i;
+        if (on_edge[0].size() > 2) ++cut_count;
+    }
+    EXPECT_GT(cut_count, 5000);
 }
 
 TEST(SplitMesh, ASphereUsesAllFaces) {
