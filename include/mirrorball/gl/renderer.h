@@ -1,0 +1,68 @@
+// Renderer: pictures of scenes by OpenGL 4.5 or OpenGL ES 3.0, whichever context is current.
+//
+// Its shaders are the files of shaders/. What each method does, and how far from the truth it is:
+// docs/rendering.md. The truth itself, for a pixel: direct.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <mirrorball/direct.h>
+#include <mirrorball/image.h>
+#include <mirrorball/progress.h>
+#include <mirrorball/scene.h>
+#include <mirrorball/scene_assets.h>
+
+namespace mirrorball::gl {
+
+struct PictureOptions {
+    int width = 1280, height = 720;
+    /// Pictures that differ by parts of a pixel and are averaged, 1 to 1024: the edges get smooth,
+    /// and what lies between pixels is not missed.
+    int sample_count = 8;
+    /// Tone mapped, linear light from 0 to 1, or else radiance.
+    bool display = true;
+    Progress progress = {};
+};
+
+/// Draws scenes whose meshes, pictures and environment are those given. What it makes of them (maps
+/// for a method, prefiltered for a material) it keeps as long as scenes ask for the same.
+///
+/// To be used, and destroyed, with the context current in which it was made. Every OpenGL error
+/// throws Error(Errc::unsupported).
+class Renderer {
+  public:
+    explicit Renderer(std::shared_ptr<const SceneAssets> assets);
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// Three channels. \throws Error(Errc::usage) for sizes out of range
+    [[nodiscard]] Image picture(const Scene& scene, const PictureOptions& options = {});
+
+    /// One picture, tone mapped linear light, into the framebuffer that is bound, whose size and
+    /// depth buffer the caller cares for.
+    void draw(const Scene& scene, int width, int height);
+
+    /// What the pixels see, at their centres moved by `shift` pixels. For direct.h.
+    [[nodiscard]] SurfaceBuffer surfaces(const Scene& scene, int width, int height,
+                                         const Imath::V2d& shift = {0, 0});
+
+    /// Seconds that each of `count` pictures of one sample takes, from the first call to OpenGL
+    /// until it has drawn all; what is made for the scene once is made before.
+    [[nodiscard]] std::vector<double> time_frames(const Scene& scene, int width, int height,
+                                                  int count);
+
+    /// Bytes of all textures by which the scene's method shows reflections.
+    [[nodiscard]] std::uint64_t map_bytes(const Scene& scene);
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Where sample `i` of `count` lies, in pixels from the pixel's centre, -1/2 to 1/2.
+[[nodiscard]] Imath::V2d sample_shift(int i, int count);
+
+}  // namespace mirrorball::gl

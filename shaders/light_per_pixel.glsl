@@ -1,0 +1,38 @@
+// The light of the maps for a direction that is known at each pixel.
+#if METHOD == SPHERE
+#include "lookup_sphere.glsl"
+#elif METHOD == DUAL_PARABOLOID
+#include "lookup_paraboloid.glsl"
+#elif METHOD == EQUIRECT
+#include "lookup_equirect.glsl"
+#elif METHOD == OCTAHEDRAL
+#include "lookup_octahedral.glsl"
+#elif METHOD == CUBE_SEAMS
+#include "lookup_faces.glsl"
+#else
+#include "lookup_cube.glsl"
+#endif
+
+uniform MAP u_mirror_map, u_glossy_map, u_diffuse_map;
+uniform mat3 u_to_map;  // from the world
+uniform float u_finest_level;  // of the mirror map: above 0 if it is to be seen blurred
+
+// The level whose texels are as large as what a pixel sees. Directions have no seams, so neither has
+// this, whatever the texture coordinates do.
+float footprint_level(vec3 d) {
+    float seen = length(cross(dFdx(d), dFdy(d)));
+    return max(u_finest_level, 0.5 * log2(max(seen, 1e-20) / texel_solid_angle(u_mirror_map, d)));
+}
+
+vec3 mirrored_light(vec3 r) {
+    vec3 d = u_to_map * r;
+    return look_up(u_mirror_map, d, footprint_level(d));
+}
+
+vec3 glossy_light(vec3 r) {
+    return look_up(u_glossy_map, u_to_map * r, u_glossy_level);
+}
+
+vec3 irradiance(vec3 n) {
+    return look_up(u_diffuse_map, u_to_map * n, 0.0);
+}

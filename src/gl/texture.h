@@ -1,0 +1,43 @@
+// Textures: pictures and environment maps on the graphics card, as half floats.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <mirrorball/environment_map.h>
+#include <mirrorball/image.h>
+
+#include "objects.h"
+
+namespace mirrorball::gl {
+
+/// A texture with what there is to know about it. Rows are stored from the top: t = 0 is there.
+struct Texture {
+    TextureName name;
+    GLenum target = GL_TEXTURE_2D;
+    int width = 0, height = 0, level_count = 1;
+    int layer_count = 1;  ///< six of a cube
+
+    void bind(int unit) const;
+    /// Of all levels; 8 a texel.
+    [[nodiscard]] std::uint64_t bytes() const;
+};
+
+/// Room without content, for drawing into: GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY or
+/// GL_TEXTURE_CUBE_MAP. Filtered linearly, between levels too; held at its edges.
+/// \throws Error(Errc::unsupported) with both sizes if it is larger than the driver takes
+[[nodiscard]] Texture make_texture(GLenum target, int width, int height, int level_count,
+                                   int layer_count = 1);
+
+/// Fills a texture's levels. Values that a half float cannot hold are clamped.
+[[nodiscard]] Texture upload(const Image& image, bool mips = false);
+
+/// A cube as a cube texture, a pair of paraboloids as an array of two, each filled beyond its rim
+/// with what goes on there, anything else as one picture. A panorama repeats sideways.
+[[nodiscard]] Texture upload(const EnvironmentMap& map);
+/// A cube as six plain pictures that know nothing of each other.
+[[nodiscard]] std::vector<Texture> upload_faces(const EnvironmentMap& cube);
+/// The same as the layers of one array.
+[[nodiscard]] Texture upload_face_array(const EnvironmentMap& cube);
+
+}  // namespace mirrorball::gl
