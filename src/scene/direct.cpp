@@ -28,7 +28,7 @@ struct Weights {
 
 Weights weights_of(const Material& material, double cosine) {
     if (material.coupling == Coupling::split_sum) {
-        const Dfg dfg = ggx_dfg(cosine, roughness_of(material.lobe));
+        const Dfg dfg = ggx_dfg(cosine, equivalent_roughness(material.lobe));
         const Vec3d f0 = material.fresnel(1), f90 = material.fresnel(0);
         const Vec3d compensation = energy_compensation(f0, dfg.albedo());
         const Vec3d reflected = (f0 * dfg.scale + f90 * dfg.bias) * compensation;
@@ -134,7 +134,7 @@ Vec3d refracted(const Vec3d& v, const Vec3d& n, double index) {
     return n * (ratio * cosine - std::sqrt(behind2)) - v * ratio;
 }
 
-double roughness_of(const Lobe& lobe) {
+double equivalent_roughness(const Lobe& lobe) {
     switch (lobe.kind) {
         case Lobe::Kind::ggx:
         case Lobe::Kind::charlie:
