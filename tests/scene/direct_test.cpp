@@ -277,6 +277,8 @@ TEST(Proxy, MissedFromOutsideIsLeftAlone) {
     for (const SceneEnvironment* e : {&box, &sphere}) {
         EXPECT_EQ(seen_from_capture(*e, {5, 0, 0}, {1, 0, 0}), Vec3d(1, 0, 0)) << "away from it";
         EXPECT_EQ(seen_from_capture(*e, {5, 5, 0}, {-1, 0, 0}), Vec3d(-1, 0, 0)) << "beside it";
+        EXPECT_EQ(seen_from_capture(*e, {5, 5, 5}, {-1, -0.1, -0.2}), Vec3d(-1, -0.1, -0.2))
+            << "askew beside it";
         expect_near(seen_from_capture(*e, {5, 0, 0}, {-1, 0, 0}), {-1, 0, 0}, 1e-12);
         expect_near(seen_from_capture(*e, {0, 0, 0}, {0, 0, -1}), {0, 0, -1}, 1e-12);
     }
