@@ -1,0 +1,237 @@
+// Methods that work per pixel, against the equations evaluated at each pixel.
+//
+// Both see the same place: Renderer::surfaces() has it. Maps are small, so that a pixel sees less
+// than a texel and the finest level is looked up; pixels that see more are left out, and silhouettes
+// where a pixel's neighbours, which the driver's derivatives come from, see something else. What
+// remains is rounding: half floats in textures (2^-11 of the value, about 1/4000 of what is shown)
+// and the weights of bilinear filters, for which OpenGL asks of 8 bits only (half of 1/256 of the
+// step between texels). Bound: 1/255 of what is shown, after the sRGB curve.
+#include <functional>
+
+#include <gtest/gtest.h>
+#include <mirrorball/projections/sphere.h>
+#include <mirrorball/resample.h>
+
+#include "gl_test.h"
+#include "truth.h"
+
+namespace mirrorball::gl {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 120;
+constexpr double kTolerance = 1.0 / 255;
+
+double texel_solid_angle(const EnvironmentMap& map, const Vec3d& world) {
+    const Vec3d d = map.axes.to_map(world).normalized();
+    double density = 0;
+    visit(map.projection, [&](auto p) {
+        using P = decltype(p);
+        density = P::density(P::project(d));
+    });
+    return density / (static_cast<double>(map.width()) * map.height());
+}
+
+// What warp.frag does: a sphere map whose texels are looked up in a cube, in the level that suits.
+EnvironmentMap warped_to_sphere(const EnvironmentMap& cube, const Axes& axes) {
+    const int size = 2 * cube.width();
+    EnvironmentMap map = make_environment_map({Projection::sphere, size, axes});
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const FacePoint<double> place{0, (x + 0.5) / size, (y + 0.5) / size};
+            const Vec3d d = axes.to_world(SphereMap::covers(place) ? SphereMap::direction(place)
+                                                                   : Vec3d(0, 0, -1));
+            const double lod =
+                0.5 * std::log2(16.0 / (size * size) / texel_solid_angle(cube, d));
+            map.levels[0].faces[0].set_rgb(x, y, look_up_at_lod(cube, d, std::max(0.0, lod)));
+        }
+    }
+    return map;
+}
+
+ReflectionMaps maps_for(const Scene& scene, const EnvironmentMap& environment) {
+    const Projection projection = projection_of(scene.method) == Projection::sphere
+                                      ? Projection::cube
+                                      : projection_of(scene.method);
+    const int size = scene.map_size * (projection == Projection::cube       ? 1
+                                       : projection == Projection::equirect ? 4
+                                                                            : 2);
+    ReflectionMaps maps = make_reflection_maps(environment, lobes_of(scene), projection, size,
+                                               default_axes(projection));
+    if (projection_of(scene.method) == Projection::sphere) {
+        const Axes camera = axes(scene.camera);
+        maps.mirror = warped_to_sphere(maps.mirror, camera);
+        maps.diffuse = warped_to_sphere(maps.diffuse, camera);
+        for (EnvironmentMap& map : maps.glossy) map = warped_to_sphere(map, camera);
+    }
+    return maps;
+}
+
+// A sphere map's rim is one direction, and what its texels beyond hold is not looked up in the same
+// way; a cube's faces that are filtered apart have edges where each holds its last texel.
+bool near_border(const Scene& scene, const EnvironmentMap& map, const Vec3d& world) {
+    const Vec3d d = map.axes.to_map(world).normalized();
+    if (map.projection == Projection::sphere) {
+        const FacePoint<double> place = SphereMap::project(d);
+        const double to_rim = 0.5 - std::hypot(place.s - 0.5, place.t - 0.5);
+        return to_rim * map.width() < 1.5;
+    }
+    if (scene.method == Method::cube_seams) {
+        const FacePoint<double> place = Cube::project(d);
+        const double to_edge = std::min({place.s, 1 - place.s, place.t, 1 - place.t});
+        return to_edge * map.width() < 0.5;
+    }
+    return false;
+}
+
+struct Comparison {
+    double largest = 0;  // of what is shown
+    int compared = 0, left_out = 0;
+    int at_x = 0, at_y = 0;
+};
+
+Comparison compare(Renderer& renderer, const SceneAssets& assets, const Scene& scene,
+                   double tolerance = kTolerance) {
+    (void)tolerance;
+    const SurfaceBuffer buffer = renderer.surfaces(scene, kWidth, kHeight);
+    const Image drawn = renderer.picture(scene, {kWidth, kHeight, 1, true, {}});
+    const ReflectionMaps maps = maps_for(scene, assets.environment);
+
+    const auto object_at = [&](int x, int y) { return static_cast<int>(*buffer.object.at(x, y)); };
+    const auto seen_by = [&](int x, int y) {
+        return seen_at(Vec3d(buffer.position.rgb(x, y)), Vec3d(buffer.normal.rgb(x, y)),
+                       scene.camera.eye);
+    };
+    Comparison result;
+    for (int y = 1; y + 1 < kHeight; ++y) {
+        for (int x = 1; x + 1 < kWidth; ++x) {
+            const int object = object_at(x, y);
+            if (object < 0) continue;
+            const Material& material = scene.objects[static_cast<std::size_t>(object)].material;
+            const Seen seen = seen_by(x, y);
+            // Directions that are looked up, and how much of them a pixel sees: at most, as from
+            // whichever of its neighbours the driver takes.
+            const auto sees_a_texel = [&](const std::function<Vec3d(const Seen&)>& direction) {
+                const Vec3d d = from_capture(scene.environment, seen.position, direction(seen));
+                if (d.length() == 0) return false;
+                const auto step = [&](int i, int j) {
+                    const Seen other = seen_by(x + i, y + j);
+                    return from_capture(scene.environment, other.position, direction(other)) - d;
+                };
+                double solid_angle = 0;
+                for (const int i : {-1, 1})
+                    for (const int j : {-1, 1})
+                        solid_angle =
+                            std::max(solid_angle, step(i, 0).cross(step(0, j)).length());
+                // the shader takes directions of any length for unit ones
+                return solid_angle > 0.7 * texel_solid_angle(maps.mirror, d) ||
+                       near_border(scene, maps.mirror, d);
+            };
+            const auto r = [](const Seen& s) { return s.r(); };
+            const auto t = [&](const Seen& s) { return s.t(material.index); };
+            bool out = false;
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i) out = out || object_at(x + i, y + j) != object;
+            if (material.mirror > 0 || material.glossy > 0) out = out || sees_a_texel(r);
+            if (material.transmission > 0) out = out || sees_a_texel(t);
+            if (material.diffuse > 0) out = out || near_border(scene, maps.diffuse, seen.n);
+            if (out) {
+                ++result.left_out;
+                continue;
+            }
+            ++result.compared;
+            const Vec3f expected = tone_mapped(
+                Vec3f(radiance_of(scene, material, material.base_color, maps, seen)),
+                scene.exposure, scene.tone_map);
+            for (int c = 0; c < 3; ++c) {
+                const double error =
+                    std::abs(srgb(drawn.rgb(x, y)[c]) - srgb(expected[c]));
+                if (!(error <= result.largest))
+                    result.largest = error, result.at_x = x, result.at_y = y;
+            }
+        }
+    }
+    return result;
+}
+
+void expect_truth(const Comparison& c, double most_left_out, const std::string& what) {
+    EXPECT_LE(c.largest, kTolerance) << what << ": pixel " << c.at_x << ", " << c.at_y;
+    EXPECT_LE(c.left_out, most_left_out * (c.left_out + c.compared)) << what;
+    EXPECT_GT(c.compared, 1000) << what;
+    if (getenv("VERBOSE")) printf("%-40s largest %.2f/255  left out %.1f %%\n", what.c_str(), c.largest * 255, 100.0 * c.left_out / (c.left_out + c.compared));
+}
+
+struct NamedMaterial {
+    std::string name;
+    Material material;
+};
+
+std::vector<NamedMaterial> materials() {
+    std::vector<NamedMaterial> all = {{"mirror", mirror_material()},
+                                      {"diffuse", diffuse_material()}};
+    Material glossy = mirror_material();
+    glossy.mirror = 0, glossy.glossy = 1;
+    all.push_back({"ggx", glossy});
+    glossy.lobe = parse_lobe("phong:40");
+    all.push_back({"phong", glossy});
+    Material coated = full_material();
+    coated.transmission = 0;
+    all.push_back({"layered", coated});
+    coated.coupling = Coupling::added;
+    all.push_back({"added", coated});
+    coated.coupling = Coupling::split_sum;
+    all.push_back({"split sum", coated});
+    Material glass = mirror_material();
+    glass.transmission = 1, glass.coupling = Coupling::layered;
+    glass.fresnel = Fresnel::dielectric(1.5);
+    glass.base_color = {0.8, 1, 0.9};
+    all.push_back({"glass", glass});
+    return all;
+}
+
+class PerPixel : public GlTest, public ::testing::WithParamInterface<Method> {};
+
+TEST_P(PerPixel, EveryMaterialIsItsEquation) {
+    const auto assets = assets_in(builtin_environment("sunset"));
+    Renderer renderer(assets);
+    for (const NamedMaterial& named : materials()) {
+        const Scene scene = scene_with("sphere", named.material, GetParam());
+        // At its rim a ball's pixels see ever more, most where light is refracted twice as much.
+        expect_truth(compare(renderer, *assets, scene), 0.2,
+                     std::string(name(GetParam())) + ", " + named.name);
+    }
+}
+
+TEST_P(PerPixel, LightsAndProxiesAndWhatElseASceneSays) {
+    const auto assets = assets_in(smooth_environment());
+    Renderer renderer(assets);
+    Scene scene = scene_with("torus", full_material(), GetParam());
+    scene.objects[0].material.transmission = 0;
+    scene.objects[0].transform = {{0.1, -0.2, 0.3}, 0.4, 0.5, -0.3, {1, 0.8, 1.2}};
+    scene.lights = {ScenePointLight{{2, 3, 4}, {12, 10, 8}},
+                    SceneDirectionalLight{{-2, 1, 0.5}, {0.5, 0.6, 0.9}}};
+    scene.environment.intensity = 0.7;
+    for (const ToneMap tone_map : {ToneMap::none, ToneMap::reinhard, ToneMap::aces, ToneMap::agx}) {
+        scene.tone_map = tone_map;
+        scene.exposure = 0.4;
+        expect_truth(compare(renderer, *assets, scene), 0.25,
+                     std::string(name(GetParam())) + ", " + std::string(name(tone_map)));
+    }
+    scene.environment.captured_at = {0.5, 0.2, -0.3};
+    scene.environment.proxy = BoxProxy{{-3, -2, -4}, {3, 4, 5}};
+    expect_truth(compare(renderer, *assets, scene), 0.25, std::string(name(GetParam())) + ", box");
+    scene.environment.proxy = SphereProxy{{0.5, 0.5, 0}, 6};
+    expect_truth(compare(renderer, *assets, scene), 0.25, std::string(name(GetParam())) + ", ball");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods, PerPixel,
+    ::testing::Values(Method::cube, Method::sphere, Method::dual_paraboloid, Method::equirect,
+                      Method::octahedral, Method::cube_seams),
+    [](const auto& method) {
+        std::string text(name(method.param));
+        std::replace(text.begin(), text.end(), '-', '_');
+        return text;
+    });
+
+}  // namespace
+}  // namespace mirrorball::gl
