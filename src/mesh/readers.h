@@ -1,0 +1,23 @@
+// One function per format of mesh files. Each checks what its parser does not, and returns a mesh
+// whose indices are in range and whose numbers are finite; normals that the file lacks are 0.
+#pragma once
+
+#include <cstdint>
+
+#include <mirrorball/mesh.h>
+
+#include "io/file.h"
+
+namespace mirrorball::detail {
+
+[[nodiscard]] Mesh read_obj(InputFile& file, std::uint64_t memory_limit);
+/// Either form, told apart by content.
+[[nodiscard]] Mesh read_gltf(InputFile& file, std::uint64_t memory_limit);
+
+/// Refuses numbers that are no numbers.
+void check_finite(const InputFile& file, const Mesh& mesh);
+
+/// Refuses what would need more than `limit`. `needed` is as a double so that sums cannot wrap.
+void check_memory(const InputFile& file, double needed, std::uint64_t limit);
+
+}  // namespace mirrorball::detail
