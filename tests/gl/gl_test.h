@@ -42,11 +42,11 @@ class GlTest : public ::testing::Test {
 };
 
 /// A panorama of smooth_light(), which has no symmetry and no edge.
-inline EnvironmentMap smooth_environment(int width = 256) {
+inline EnvironmentMap smooth_environment(int width = 128) {
     return sampled(Projection::equirect, width, smooth_light);
 }
 
-inline EnvironmentMap builtin_environment(const std::string& name, int width = 256) {
+inline EnvironmentMap builtin_environment(const std::string& name, int width = 128) {
     return make_builtin(name, Projection::equirect, width, default_axes(Projection::equirect));
 }
 
