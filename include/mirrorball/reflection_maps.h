@@ -34,8 +34,9 @@ struct ReflectionMaps {
 /// The size of a map so fine that bilinear lookup hardly differs from the lobe's own blur: about 16
 /// texels of a cube's face centre to a radian over the lobe's width, which is from the angle that
 /// holds a quarter of it to the one that holds three. For a single point of light, the worst there
-/// is, a lookup is then off by 1.5 % of the highlight's peak at most; in the built-in sunset by
-/// 0.1 %.
+/// is, a lookup in a cube is off by 1.5 % of the highlight's peak at most; in the built-in sunset,
+/// its sun included, by 0.5 % of the brightest and 0.16 % in the root mean square, in an octahedral
+/// map by 1.2 % and 0.23 %.
 [[nodiscard]] int glossy_map_size(const Lobe& lobe, Projection projection);
 
 /// The size of a map of `projection` that is as fine as `environment`: a power of two.

@@ -28,6 +28,10 @@ enum class Coupling {
     layered,    ///< Eq. 21: F L_layer + (1 - F) L_diffuse
     split_sum,  ///< (F0 A + F90 B) L_layer, as rough surfaces reflect, and the base gets the rest
 };
+/// "added", "layered", "split-sum"
+[[nodiscard]] std::string_view name(Coupling coupling);
+/// \throws Error(Errc::usage) naming the couplings there are
+[[nodiscard]] Coupling parse_coupling(std::string_view name);
 
 /// The survey's figure 4.1, each term with its weight, and F the Fresnel term:
 ///
@@ -44,7 +48,9 @@ struct Material {
     Lobe lobe{Lobe::Kind::ggx, 0.3, nullptr};
     Fresnel fresnel;  ///< 1 at every angle unless it is said
     Coupling coupling = Coupling::layered;
-    double index = 1.5;  ///< of refraction, for `transmission`
+    double index = 1.5;  ///< of refraction, for `transmission`; 0.01 to 100
+
+    bool operator==(const Material&) const = default;
 };
 
 /// Scale, then turn as rotated() of axes.h turns, then move.
@@ -56,6 +62,8 @@ struct Transform {
     [[nodiscard]] Vec3d point(const Vec3d& p) const;
     /// Of the surface thus moved, unit.
     [[nodiscard]] Vec3d normal(const Vec3d& n) const;
+
+    bool operator==(const Transform&) const = default;
 };
 /// The same for row vectors, as Imath multiplies: p * matrix(t) == t.point(p). Its sixteen numbers
 /// in their order are those of OpenGL's matrix for columns.
@@ -66,6 +74,8 @@ struct DynamicReflection {
     int size = 256;           ///< edge of a face in texels, 16 to 4096
     int faces_per_frame = 6;  ///< 1 to 6: how many are drawn anew for each picture
     int bounces = 1;          ///< 1 to 8: how often light goes to and fro between such objects
+
+    bool operator==(const DynamicReflection&) const = default;
 };
 
 struct SceneObject {
@@ -74,43 +84,57 @@ struct SceneObject {
     Transform transform;
     Material material;
     std::optional<DynamicReflection> dynamic;  ///< else it reflects the environment
+
+    bool operator==(const SceneObject&) const = default;
 };
 
 /// What stands in for the geometry around a map that was captured in a room, so that it is not seen
 /// as if infinitely far away: a ray meets the proxy, and the map is asked for the direction from
 /// where it was captured to there.
 struct BoxProxy {
-    Vec3d least{-1}, most{1};
+    Vec3d least{-1}, most{1};  ///< least < most
+
+    bool operator==(const BoxProxy&) const = default;
 };
 struct SphereProxy {
     Vec3d centre{0};
     double radius = 1;
+
+    bool operator==(const SphereProxy&) const = default;
 };
 using Proxy = std::variant<std::monostate, BoxProxy, SphereProxy>;
 
 struct SceneEnvironment {
     std::string source = "builtin:sunset";  ///< as read_map() takes it
     double yaw = 0, pitch = 0, roll = 0;    ///< as rotated() of axes.h
-    double intensity = 1;                   ///< multiplies its radiance
+    double intensity = 1;                   ///< multiplies its radiance; 0 to 1e6
     bool background = true;                 ///< is it seen behind the objects?
     Vec3d background_color{0};              ///< where it is not
     Proxy proxy;
     Vec3d captured_at{0};  ///< where the map was taken; matters with a proxy only
+
+    bool operator==(const SceneEnvironment&) const = default;
 };
 
 struct ScenePointLight {
     Vec3d position{0, 3, 0};
     Vec3d intensity{10};  ///< W/sr
+
+    bool operator==(const ScenePointLight&) const = default;
 };
 struct SceneDirectionalLight {
     Vec3d direction{0, 1, 0};    ///< towards the light; any length but 0
     Vec3d normal_irradiance{1};  ///< W/m^2
+
+    bool operator==(const SceneDirectionalLight&) const = default;
 };
 using SceneLight = std::variant<ScenePointLight, SceneDirectionalLight>;
 
 struct Camera {
     Vec3d eye{0, 0, 5}, target{0}, up{0, 1, 0};
-    double field_of_view = 0.6;  ///< vertical
+    double field_of_view = 0.6;  ///< vertical; 0.1 to 179 degrees
+
+    bool operator==(const Camera&) const = default;
 };
 /// x to the right, y upwards, z back towards the eye: right-handed, unit, in the world. `up` only
 /// needs to be roughly so; any will do if one looks along it. \pre eye != target
@@ -122,7 +146,8 @@ struct Camera {
 /// so far away that the ball fits.
 struct Bounds;
 [[nodiscard]] Camera framing(const Bounds& bounds, double aspect = 1, double yaw = 0.45,
-                             double pitch = 0.3);
+                             double pitch = 0.3,
+                             double field_of_view = Camera().field_of_view);
 
 /// How reflections are looked up: sections 2 and 3 of the survey. name() and parse_method() spell
 /// them as below, with - for _. docs/rendering.md shows each.
@@ -154,9 +179,11 @@ struct Scene {
     std::vector<SceneLight> lights;
     Camera camera;
     Method method = Method::cube;
-    int map_size = 0;     ///< of the map that mirrors show; 0: as fine as the environment
-    double exposure = 0;  ///< 0: the environment's usual_exposure()
+    int map_size = 0;     ///< of the map that mirrors show, to 16384; 0: as the environment's
+    double exposure = 0;  ///< to 1e12; 0: the environment's usual_exposure()
     ToneMap tone_map = ToneMap::film;
+
+    bool operator==(const Scene&) const = default;
 };
 
 }  // namespace mirrorball

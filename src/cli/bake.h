@@ -115,7 +115,6 @@ void write_pictures(const Bake& bake, const std::filesystem::path& folder,
 
 /// index.html (report.cpp).
 [[nodiscard]] std::string report_html(const Bake& bake);
-extern const char* const kReportStyle;
 
 inline constexpr const char* kPictureFolder = "pictures";
 

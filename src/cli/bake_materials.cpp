@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <mirrorball/fresnel.h>
+#include <mirrorball/lookup.h>
 
 #include "bake.h"
 
@@ -40,14 +41,14 @@ class Light {
     }
 
     [[nodiscard]] Vec3d mirror(const Vec3d& n) const {
-        return Vec3d(look_up(bake_.environment.map, mirror_level_, reflected_view(n)));
+        return Vec3d(look_up(bake_.environment.map, reflected_view(n), mirror_level_));
     }
     [[nodiscard]] Vec3d phong(const Vec3d& n, int level) const {
-        return Vec3d(look_up(bake_.phong.map, level, reflected_view(n)));
+        return Vec3d(look_up(bake_.phong.map, reflected_view(n), level));
     }
     // Radiance of a white matte surface.
     [[nodiscard]] Vec3d diffuse(const Vec3d& n) const {
-        return Vec3d(look_up(bake_.diffuse.map, 0, n)) / kPi;
+        return Vec3d(look_up(bake_.diffuse.map, n)) / kPi;
     }
     // Between the levels of the nearest roughnesses, as a renderer's trilinear filter would.
     [[nodiscard]] Vec3d specular(const Vec3d& n, double roughness) const {
@@ -55,12 +56,12 @@ class Light {
         const Vec3d r = reflected_view(n);
         int level = 0;
         while (level + 1 < map.level_count() && roughness_at(level + 1) <= roughness) ++level;
-        const Vec3d sharper(look_up(map, level, r));
+        const Vec3d sharper(look_up(map, r, level));
         if (level + 1 == map.level_count()) return sharper;
         const double share = std::clamp(
             (roughness - roughness_at(level)) / (roughness_at(level + 1) - roughness_at(level)),
             0.0, 1.0);
-        return sharper * (1 - share) + Vec3d(look_up(map, level + 1, r)) * share;
+        return sharper * (1 - share) + Vec3d(look_up(map, r, level + 1)) * share;
     }
     [[nodiscard]] Dfg dfg(const Vec3d& n, double roughness) const {
         return bake_.dfg->ggx(n.z, roughness);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <mirrorball/lookup.h>
 #include <mirrorball/tone_map.h>
 
 #include "bake.h"
@@ -36,13 +37,12 @@ class Painter {
     }
 
     void mirror_ball(const EnvironmentMap& map, int level, const std::string& file) const {
-        ball(file, [&](const Vec3d& n) { return look_up(map, level, reflected_view(n)); });
+        ball(file, [&](const Vec3d& n) { return look_up(map, reflected_view(n), level); });
     }
 
     // A white matte ball: radiance is irradiance / pi.
     void matte_ball(const EnvironmentMap& map, const std::string& file) const {
-        ball(file,
-             [&](const Vec3d& n) { return look_up(map, 0, n) * static_cast<float>(1 / kPi); });
+        ball(file, [&](const Vec3d& n) { return look_up(map, n) * static_cast<float>(1 / kPi); });
     }
 
     void harmonics_ball(const NineHarmonics& irradiance, const std::string& file) const {

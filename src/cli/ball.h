@@ -18,8 +18,4 @@ using Shade = std::function<Vec3f(const Vec3d& normal)>;
     return n * (2 * n.z) - Vec3d(0, 0, 1);
 }
 
-/// A cube map's level read as a graphics card does: bilinear, across edges. `direction` is the
-/// world's.
-[[nodiscard]] Vec3f look_up(const EnvironmentMap& cube, int level, const Vec3d& direction);
-
 }  // namespace mirrorball::cli

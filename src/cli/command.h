@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/nearest.h"
+
 namespace mirrorball::cli {
 
 /// Takes an option's value as it was typed. Throws Error(Errc::usage) that says what was expected;
@@ -76,9 +78,7 @@ template <class T, class Parse>
 /// "1,2,3" -> {"1", "2", "3"}
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
-/// The candidate that `word` was most likely meant to be; empty when none is near.
-[[nodiscard]] std::string nearest(std::string_view word,
-                                  const std::vector<std::string>& candidates);
+using detail::nearest;
 /// `"spher" is not a projection; did you mean "sphere"? There are: ...`
 [[nodiscard]] std::string unknown(std::string_view kind, std::string_view word,
                                   const std::vector<std::string>& candidates);

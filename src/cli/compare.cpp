@@ -11,6 +11,7 @@
 #include <mirrorball/error.h>
 #include <mirrorball/resample.h>
 
+#include "false_color.h"
 #include "output.h"
 #include "targets.h"
 #include "verbs.h"
@@ -49,16 +50,6 @@ std::string to_text(int level, const Difference& d) {
         d.flux_ratio.y, d.flux_ratio.z);
 }
 
-// Black, violet, red, orange, white as t goes from 0 to 1; brightness rises all the way.
-Vec3f false_colour(double t) {
-    const auto ramp = [t](double from, double to) {
-        return std::clamp((t - from) / (to - from), 0.0, 1.0);
-    };
-    return {static_cast<float>(ramp(0.05, 0.6)), static_cast<float>(std::pow(ramp(0.4, 0.95), 1.5)),
-            static_cast<float>(
-                std::max(0.35 * ramp(0.0, 0.2) * (1 - ramp(0.35, 0.6)), ramp(0.8, 1.0)))};
-}
-
 bool same_shape(const EnvironmentMap& a, const EnvironmentMap& b, int level) {
     return a.projection == b.projection && a.axes == b.axes && a.width(level) == b.width(level);
 }
@@ -87,7 +78,7 @@ EnvironmentMap picture(const EnvironmentMap& a, const EnvironmentMap& b, int lev
                     worst = std::max(worst, std::abs(other.at(x, y)[c] - reference) /
                                                 std::max(reference, floor));
                 }
-                image.set_rgb(x, y, false_colour(1 + std::log10(std::max(worst, 1e-30)) / 4));
+                image.set_rgb(x, y, false_color(1 + std::log10(std::max(worst, 1e-30)) / 4));
             }
         }
     }

@@ -6,32 +6,10 @@
 
 #include "bake.h"
 #include "bake_materials.h"
+#include "html.h"
 
 namespace mirrorball::cli {
 namespace {
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 std::string picture(const std::string& file, const std::string& alt, const char* classes = "") {
     return fmt::format(R"(<img src="{}/{}" alt="{}" class="{}" loading="lazy">)", kPictureFolder,
@@ -70,10 +48,6 @@ std::string amount(double value) {
 
 std::string tile(const std::string& name, const std::string& value, const std::string& note) {
     return fmt::format("<div><dt>{}</dt><dd>{} <small>{}</small></dd></div>\n", name, value, note);
-}
-
-std::string fact(const std::string& name, const std::string& value) {
-    return fmt::format("<dt>{}</dt><dd>{}</dd>", name, value);
 }
 
 std::string tiles(const Bake& bake) {
@@ -191,15 +165,17 @@ std::string lobe_heading(const Lobe& lobe) {
 }
 
 std::string level_facts(const LevelFacts& facts) {
-    return "<dl class=\"facts\">" + fact("Faces", fmt::format("6 × {0}²", facts.size)) +
-           fact("Range",
-                fmt::format("{} – {}",
-                            amount(std::min({facts.statistics.minimum.x, facts.statistics.minimum.y,
-                                             facts.statistics.minimum.z})),
-                            amount(largest(facts.statistics.maximum)))) +
-           fact("Flux off by", percent(flux_error(facts))) +
-           fact("Seam ratio", fmt::format("{:.2f}", facts.seam_ratio)) +
-           (facts.estimated_error ? fact("Estimated error", amount(*facts.estimated_error)) : "") +
+    return "<dl class=\"facts\">" + html_fact("Faces", fmt::format("6 × {0}²", facts.size)) +
+           html_fact(
+               "Range",
+               fmt::format("{} – {}",
+                           amount(std::min({facts.statistics.minimum.x, facts.statistics.minimum.y,
+                                            facts.statistics.minimum.z})),
+                           amount(largest(facts.statistics.maximum)))) +
+           html_fact("Flux off by", percent(flux_error(facts))) +
+           html_fact("Seam ratio", fmt::format("{:.2f}", facts.seam_ratio)) +
+           (facts.estimated_error ? html_fact("Estimated error", amount(*facts.estimated_error))
+                                  : "") +
            "</dl>";
 }
 
@@ -241,7 +217,7 @@ std::string diffuse_section(const Bake& bake) {
                "<dl class=\"facts\">{}</dl></figcaption></figure>\n",
                picture("harmonics-ball.png", "The same ball lit by nine coefficients",
                        "round ball"),
-               fact("RMS error", percent(bake.harmonics_error * 100))) +
+               html_fact("RMS error", percent(bake.harmonics_error * 100))) +
            "</div>\n</section>\n";
 }
 
@@ -353,13 +329,13 @@ std::string source_section(const Bake& bake) {
     std::string html = fmt::format(
         "<section>\n<h2>Source</h2>\n<div class=\"card\" style=\"padding:6px 16px 14px\">"
         "<dl class=\"facts\">{}{}{}{}{}{}{}</dl></div>\n",
-        fact("Input", "<code>" + escaped(bake.options.input.source) + "</code>"),
-        fact("Format", escaped(source.format) + ", " + std::string(name(source.stored))),
-        fact("Layout", shape_text(source.map)),
-        fact("Axes", "<code>" + to_string(source.map.axes) + "</code>"),
-        fact("Level mapping", escaped(bake.options.mapping)),
-        fact("Tolerance", amount(bake.options.prefilter.tolerance)),
-        fact("Exposure of the pictures", amount(bake.exposure)));
+        html_fact("Input", "<code>" + escaped(bake.options.input.source) + "</code>"),
+        html_fact("Format", escaped(source.format) + ", " + std::string(name(source.stored))),
+        html_fact("Layout", shape_text(source.map)),
+        html_fact("Axes", "<code>" + to_string(source.map.axes) + "</code>"),
+        html_fact("Level mapping", escaped(bake.options.mapping)),
+        html_fact("Tolerance", amount(bake.options.prefilter.tolerance)),
+        html_fact("Exposure of the pictures", amount(bake.exposure)));
     for (const std::string& note : source.notes) {
         html += fmt::format("<p style=\"margin-top:12px\">Note: {}</p>\n", escaped(note));
     }
@@ -369,17 +345,13 @@ std::string source_section(const Bake& bake) {
 }  // namespace
 
 std::string report_html(const Bake& bake) {
-    const std::string title =
-        escaped(std::filesystem::path(bake.options.input.source).filename().string());
-    std::string html = fmt::format(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<title>{0} · mirrorball</title>\n<style>{1}</style>\n</head>\n<body>\n"
-        "<div class=\"hero\">{2}</div>\n<header class=\"title\"><h1>{0}</h1>\n"
-        "<p class=\"lead\">Baked for rendering from {3}.</p>\n{4}</header>\n<main>\n",
-        title, kReportStyle, picture("equirect.png", "Panorama of the environment"),
+    const std::string title = std::filesystem::path(bake.options.input.source).filename().string();
+    const std::string top = fmt::format(
+        "<div class=\"hero\">{1}</div>\n<header class=\"title\"><h1>{0}</h1>\n"
+        "<p class=\"lead\">Baked for rendering from {2}.</p>\n{3}</header>\n",
+        escaped(title), picture("equirect.png", "Panorama of the environment"),
         shape_text(bake.source.map), tiles(bake));
-    html += projections_section();
+    std::string html = projections_section();
     html += chain_section(
         bake.specular, "Specular, one level per roughness", "specular",
         fmt::format(
@@ -390,12 +362,12 @@ std::string report_html(const Bake& bake) {
                           "The environment blurred by the classic cosine lobe.");
     html += diffuse_section(bake) + materials_section(bake) + tables_section(bake) +
             files_section(bake) + times_section(bake) + source_section(bake);
-    return html +
-           "<footer>Flux is the integral of radiance over the sphere. The seam ratio is the step "
-           "between texels across a cube's edges over the step beside them: 1 means that no edge "
-           "shows. The estimated error is that of prefiltering, rms over the level's rms; 0 is the "
-           "source, resampled. Made by mirrorball " MIRRORBALL_VERSION
-           ".</footer>\n</main>\n</body>\n</html>\n";
+    html +=
+        "<footer>Flux is the integral of radiance over the sphere. The seam ratio is the step "
+        "between texels across a cube's edges over the step beside them: 1 means that no edge "
+        "shows. The estimated error is that of prefiltering, rms over the level's rms; 0 is the "
+        "source, resampled. Made by mirrorball " MIRRORBALL_VERSION ".</footer>\n";
+    return html_page(title, top, html);
 }
 
 }  // namespace mirrorball::cli

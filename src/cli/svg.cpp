@@ -5,25 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "html.h"
+
 namespace mirrorball::cli {
 namespace {
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 std::string style(const Ink& ink) {
     std::string text =

@@ -2,12 +2,14 @@
 #include <mirrorball/gl/renderer.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include <mirrorball/brdf.h>
 #include <mirrorball/dfg.h>
 #include <mirrorball/error.h>
 #include <mirrorball/resample.h>
@@ -71,6 +73,22 @@ std::string_view glsl_name(Coupling coupling) {
     return {};
 }
 
+// What lights without extent show of a lobe; 0 where they show nothing.
+std::string_view glsl_name(Lobe::Kind kind) {
+    switch (kind) {
+        case Lobe::Kind::phong:
+            return "PHONG";
+        case Lobe::Kind::blinn_phong:
+            return "BLINN_PHONG";
+        case Lobe::Kind::ggx:
+            return "GGX";
+        case Lobe::Kind::charlie:
+            return "CHARLIE";
+        default:
+            return "0";
+    }
+}
+
 std::string_view glsl_name(const Proxy& proxy) {
     if (std::holds_alternative<BoxProxy>(proxy)) return "BOX_PROXY";
     if (std::holds_alternative<SphereProxy>(proxy)) return "SPHERE_PROXY";
@@ -89,8 +107,10 @@ Definitions definitions_for(const Scene& scene, const Material& material, int pa
     if (material.diffuse > 0) definitions.emplace_back("HAS_DIFFUSE");
     if (material.transmission > 0) definitions.emplace_back("HAS_TRANSMISSION");
     if (!material.base_color_map.empty()) definitions.emplace_back("HAS_BASE_COLOR_MAP");
-    if (!scene.lights.empty())
+    if (!scene.lights.empty()) {
         definitions.push_back(fmt::format("LIGHT_COUNT {}", scene.lights.size()));
+        definitions.push_back(fmt::format("LOBE {}", glsl_name(material.lobe.kind)));
+    }
     if (display) definitions.emplace_back("DISPLAY");
     return definitions;
 }
@@ -123,19 +143,19 @@ void set_lights(const Program& program, std::span<const SceneLight> lights) {
     }
 }
 
-// The roughness whose column of the DFG table suits a lobe: of equal width about its axis.
-double roughness_of(const Lobe& lobe) {
-    switch (lobe.kind) {
-        case Lobe::Kind::ggx:
-        case Lobe::Kind::charlie:
-            return lobe.parameter;
-        case Lobe::Kind::phong:
-            return std::pow(2 / (4 * lobe.parameter + 2), 0.25);
-        case Lobe::Kind::blinn_phong:
-            return std::pow(2 / (lobe.parameter + 2), 0.25);
-        default:
-            return 0;
-    }
+// BRDFs have exponents to a million; next to a light without extent no one sees the difference.
+double exponent_of(const Lobe& lobe) {
+    return std::min(lobe.parameter, 1e6);
+}
+
+// What normalises a cosine lobe as a BRDF: its value at the peak.
+double lobe_scale(const Lobe& lobe) {
+    const Vec3d normal(0, 0, 1);
+    if (lobe.kind == Lobe::Kind::phong)
+        return Brdf(Phong{.exponent = exponent_of(lobe)}).evaluate(normal, normal).x;
+    if (lobe.kind == Lobe::Kind::blinn_phong)
+        return Brdf(BlinnPhong{.exponent = exponent_of(lobe)}).evaluate(normal, normal).x;
+    return 0;
 }
 
 void check_scene(const Scene& scene) {
@@ -170,6 +190,7 @@ class Renderer::Impl {
     Image picture(const Scene& scene, const PictureOptions& options);
     void draw(const Scene& scene, int width, int height, const Imath::V2d& shift, bool display);
     SurfaceBuffer surfaces(const Scene& scene, int width, int height, const Imath::V2d& shift);
+    std::vector<double> time_frames(const Scene& scene, int width, int height, int count);
     std::uint64_t map_bytes(const Scene& scene) { return maps_for(scene).bytes(); }
 
   private:
@@ -286,10 +307,12 @@ void Renderer::Impl::set_material(const Program& program, const Material& materi
     program.set("u_index", static_cast<float>(material.index));
     fresnel_texture(material.fresnel).bind(kFresnelUnit);
     program.set("u_fresnel_map", kFresnelUnit);
+    program.set("u_roughness", static_cast<float>(roughness_of(material.lobe)));
+    program.set("u_exponent", static_cast<float>(exponent_of(material.lobe)));
+    program.set("u_lobe_scale", static_cast<float>(lobe_scale(material.lobe)));
     if (material.coupling == Coupling::split_sum) {
         dfg_texture().bind(kDfgUnit);
         program.set("u_dfg_table", kDfgUnit);
-        program.set("u_roughness", static_cast<float>(roughness_of(material.lobe)));
         program.set("u_f0", material.fresnel(1));
         program.set("u_f90", material.fresnel(0));
     }
@@ -426,6 +449,21 @@ Image Renderer::Impl::picture(const Scene& scene, const PictureOptions& options)
     return sum;
 }
 
+std::vector<double> Renderer::Impl::time_frames(const Scene& scene, int width, int height,
+                                                int count) {
+    using Clock = std::chrono::steady_clock;
+    const Target target(width, height);
+    std::vector<double> seconds;
+    for (int i = -1; i < count; ++i) {  // the first makes ready and does not count
+        target.bind();
+        const Clock::time_point start = Clock::now();
+        draw(scene, width, height, {0, 0}, true);
+        glFinish();
+        if (i >= 0) seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    return seconds;
+}
+
 SurfaceBuffer Renderer::Impl::surfaces(const Scene& scene, int width, int height,
                                        const Imath::V2d& shift) {
     const View view = view_of(scene.camera, static_cast<double>(width) / height,
@@ -485,6 +523,10 @@ void Renderer::draw(const Scene& scene, int width, int height) {
 SurfaceBuffer Renderer::surfaces(const Scene& scene, int width, int height,
                                  const Imath::V2d& shift) {
     return impl_->surfaces(scene, width, height, shift);
+}
+
+std::vector<double> Renderer::time_frames(const Scene& scene, int width, int height, int count) {
+    return impl_->time_frames(scene, width, height, count);
 }
 
 std::uint64_t Renderer::map_bytes(const Scene& scene) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <mirrorball/direct.h>
 #include <mirrorball/image.h>
@@ -47,6 +48,11 @@ class Renderer {
     /// What the pixels see, at their centres moved by `shift` pixels. For direct.h.
     [[nodiscard]] SurfaceBuffer surfaces(const Scene& scene, int width, int height,
                                          const Imath::V2d& shift = {0, 0});
+
+    /// Seconds that each of `count` pictures of one sample takes, from the first call to OpenGL
+    /// until it has drawn all; what is made for the scene once is made before.
+    [[nodiscard]] std::vector<double> time_frames(const Scene& scene, int width, int height,
+                                                  int count);
 
     /// Bytes of all textures by which the scene's method shows reflections.
     [[nodiscard]] std::uint64_t map_bytes(const Scene& scene);

@@ -1,9 +1,11 @@
-// The report's style sheet, a part of the page: it needs no network and no other file.
-#include "bake.h"
+#include "html.h"
+
+#include <fmt/format.h>
 
 namespace mirrorball::cli {
+namespace {
 
-const char* const kReportStyle = R"(
+const char* const kStyle = R"(
 :root {
   color-scheme: light dark;
   --page: #f6f6f3; --card: #ffffff; --ink: #17191c; --soft: #5b6067; --line: #e2e2dd;
@@ -103,5 +105,43 @@ footer { color: var(--soft); font-size: 14px; padding: 56px 0 40px; }
   .times li { grid-template-columns: 112px 1fr 56px; }
 }
 )";
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+std::string html_page(std::string_view title, std::string_view top, std::string_view main) {
+    return fmt::format(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<title>{} · mirrorball</title>\n<style>{}</style>\n</head>\n<body>\n"
+        "{}<main>\n{}</main>\n</body>\n</html>\n",
+        escaped(title), kStyle, top, main);
+}
+
+std::string html_fact(std::string_view name, std::string_view value) {
+    return fmt::format("<dt>{}</dt><dd>{}</dd>", name, value);
+}
 
 }  // namespace mirrorball::cli

@@ -1,0 +1,242 @@
+#include "scene_options.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <mirrorball/error.h>
+#include <mirrorball/material_presets.h>
+#include <mirrorball/mesh.h>
+#include <mirrorball/scene_file.h>
+
+namespace mirrorball::cli {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+
+/// An edit of the scene by a value that is parsed at once, so that a bad one is told as the
+/// option's.
+template <class Parse, class Apply>
+SetValue edit(SceneInput& input, Parse parse, Apply apply) {
+    return [&input, parse, apply](const std::string& text) {
+        input.edits.push_back([value = parse(text), apply](Scene& scene) { apply(scene, value); });
+    };
+}
+
+template <class Parse, class Apply>
+SetValue edit_material(SceneInput& input, Parse parse, Apply apply) {
+    return [&input, parse, apply](const std::string& text) {
+        input.material_edits.push_back(
+            [value = parse(text), apply](Material& material) { apply(material, value); });
+    };
+}
+
+auto number(double least, double most) {
+    return [least, most](const std::string& text) { return parse_real_number(text, least, most); };
+}
+
+// "0.8" or "0.8/0.2/0.1", as in the spelling of BRDFs.
+Vec3d parse_color(const std::string& text) {
+    const std::vector<std::string> parts = split(text, '/');
+    if (parts.size() != 1 && parts.size() != 3)
+        throw Error(Errc::usage, fmt::format("\"{}\" is not a colour as 0.5 or 0.8/0.2/0.1", text));
+    const auto channel = [](const std::string& part) { return parse_real_number(part, 0, 1); };
+    if (parts.size() == 1) return Vec3d(channel(text));
+    return {channel(parts[0]), channel(parts[1]), channel(parts[2])};
+}
+
+Choices names_of(const std::vector<Method>& methods) {
+    Choices choices{.values = {}, .closed = true};
+    for (const Method method : methods) choices.values.emplace_back(name(method));
+    return choices;
+}
+
+Choices mesh_choices() {
+    Choices choices = file_choices();
+    for (const BuiltinMesh& mesh : builtin_meshes()) choices.values.push_back(mesh.name);
+    return choices;
+}
+
+Choices material_choices() {
+    Choices choices{.values = {}, .closed = true};
+    for (const MaterialPreset& preset : material_presets()) choices.values.push_back(preset.name);
+    return choices;
+}
+
+Choices tone_map_choices() {
+    Choices choices{.values = {}, .closed = true};
+    for (const ToneMap tone_map :
+         {ToneMap::none, ToneMap::reinhard, ToneMap::aces, ToneMap::agx, ToneMap::film})
+        choices.values.emplace_back(name(tone_map));
+    return choices;
+}
+
+// A lobe of the one object: it is what the object shows then, and not a mirror.
+void set_lobe(Material& material, const Lobe& lobe) {
+    if (lobe.kind == Lobe::Kind::mirror) {
+        material.mirror = 1, material.glossy = 0;
+        return;
+    }
+    material.lobe = lobe;
+    material.mirror = 0, material.glossy = 1;
+}
+
+struct Orbit {
+    double yaw, pitch;
+    double nearer;  // 1: the object fills the picture
+};
+
+Orbit parse_orbit(const std::string& text) {
+    const std::vector<std::string> parts = split(text, ',');
+    if (parts.size() != 2 && parts.size() != 3) {
+        throw Error(Errc::usage, fmt::format("\"{}\" is not yaw, pitch and, if you like, distance "
+                                             "as 30,15 or 30,15,1.5",
+                                             text));
+    }
+    return {parse_real_number(parts[0], -360, 360) * kDegree,
+            parse_real_number(parts[1], -90, 90) * kDegree,
+            parts.size() == 3 ? parse_real_number(parts[2], 1e-3, 1e6) : 1};
+}
+
+Bounds bounds_of(const Scene& scene, const SceneAssets& assets) {
+    Mesh corners;
+    for (const SceneObject& object : scene.objects) {
+        for (const Vec3f& position : assets.meshes.at(object.mesh).positions)
+            corners.positions.push_back(Vec3f(object.transform.point(Vec3d(position))));
+    }
+    return bounds(corners);
+}
+
+void place_camera(Scene& scene, const SceneAssets& assets, const SceneInput& input) {
+    const Orbit orbit = parse_orbit(input.camera.empty() ? "25,14" : input.camera);
+    const double aspect = static_cast<double>(input.width) / input.height;
+    const double field_of_view = scene.camera.field_of_view;
+    scene.camera = framing(bounds_of(scene, assets), aspect, orbit.yaw, orbit.pitch, field_of_view);
+    scene.camera.eye =
+        scene.camera.target + (scene.camera.eye - scene.camera.target) * orbit.nearer;
+}
+
+SceneObject only_object(const SceneInput& input) {
+    SceneObject object;
+    object.mesh = input.mesh.empty() ? "teapot" : input.mesh;
+    object.material = preset_material(input.material.empty() ? "mirror" : input.material);
+    for (const auto& edit : input.material_edits) edit(object.material);
+    return object;
+}
+
+// Only where there is a scene file do names in the scene mean files beside it.
+std::filesystem::path folder_of(const SceneInput& input) {
+    return std::filesystem::path(input.file).parent_path();
+}
+
+}  // namespace
+
+void add_scene_argument(Command& command, SceneInput& input) {
+    command.arguments.push_back({"SCENE", "a scene file (docs/scene.md); or options say it all",
+                                 text(input.file), file_choices(), false});
+}
+
+void add_scene_options(Command& command, SceneInput& input) {
+    const std::vector<Option> options = {
+        {"--env", "IN", "the environment: a map's file, or builtin:NAME [builtin:sunset]",
+         edit(
+             input, [](const std::string& text) { return text; },
+             [](Scene& scene, const std::string& source) { scene.environment.source = source; }),
+         input_choices()},
+        {"--turn-env", "YAW,PITCH,ROLL", "degrees; positive yaw turns what is ahead to the left",
+         edit(input, parse_rotation,
+              [](Scene& scene, const Rotation& r) {
+                  scene.environment.yaw = r.yaw;
+                  scene.environment.pitch = r.pitch;
+                  scene.environment.roll = r.roll;
+              })},
+        {"--method", "METHOD", "how reflections are looked up [cube]",
+         edit(input, parse_method, [](Scene& scene, Method m) { scene.method = m; }),
+         names_of(all_methods())},
+        {"--map-size", "N", "edge of a cube's face; other maps are as fine [as the environment]",
+         edit(
+             input, [](const std::string& text) { return parse_whole_number(text, 1, 16384); },
+             [](Scene& scene, int size) { scene.map_size = size; })},
+        {"--mesh", "MESH", "the object: a built-in mesh, or an .obj, .gltf or .glb file [teapot]",
+         text(input.mesh), mesh_choices()},
+        {"--material", "NAME", "of the object; the options below change it [mirror]",
+         text(input.material), material_choices()},
+        {"--lobe", "LOBE", "what it blurs its reflections by, as phong:100 or ggx:0.4",
+         edit_material(input, parse_lobe, set_lobe), lobe_choices()},
+        {"--fresnel", "SURFACE", "index=N, metal=NAME, n=N,k=K or f0=F; under ,coat=N",
+         edit_material(input, parse_fresnel,
+                       [](Material& m, const Fresnel& fresnel) { m.fresnel = fresnel; }),
+         surface_choices()},
+        {"--coupling",
+         "HOW",
+         "added (Eq. 20), layered (Eq. 21) or split-sum [layered]",
+         edit_material(input, parse_coupling,
+                       [](Material& m, Coupling coupling) { m.coupling = coupling; }),
+         {.values = {"added", "layered", "split-sum"}, .closed = true}},
+        {"--base-color", "COLOR", "of diffuse and transmitted light, as 0.8 or 0.8/0.2/0.1",
+         edit_material(input, parse_color,
+                       [](Material& m, const Vec3d& color) { m.base_color = color; })},
+        {"--mirror", "W", "weight of the mirror term, 0 to 1",
+         edit_material(input, number(0, 1), [](Material& m, double w) { m.mirror = w; })},
+        {"--glossy", "W", "weight of the glossy term",
+         edit_material(input, number(0, 1), [](Material& m, double w) { m.glossy = w; })},
+        {"--diffuse", "W", "weight of the diffuse term",
+         edit_material(input, number(0, 1), [](Material& m, double w) { m.diffuse = w; })},
+        {"--transmission", "W", "weight of the light that is refracted",
+         edit_material(input, number(0, 1), [](Material& m, double w) { m.transmission = w; })},
+        {"--index", "N", "of refraction, of what is transmitted",
+         edit_material(input, number(0.01, 100), [](Material& m, double n) { m.index = n; })},
+        {"--camera", "YAW,PITCH[,D]",
+         "degrees around the objects, and how many times as far as just fits [25,14,1]",
+         text(input.camera)},
+        {"--field-of-view", "DEGREES", "vertical [34.4]",
+         edit(
+             input, number(0.1, 179),
+             [](Scene& scene, double degrees) { scene.camera.field_of_view = degrees * kDegree; })},
+        {"--exposure", "E", "what radiance is multiplied by to be shown [by the environment]",
+         edit(input, number(1e-12, 1e12), [](Scene& scene, double e) { scene.exposure = e; })},
+        {"--tone-map", "CURVE", "from light to what a screen shows [film]",
+         edit(input, parse_tone_map, [](Scene& scene, ToneMap t) { scene.tone_map = t; }),
+         tone_map_choices()},
+        {"--plain-background", "COLOR", "behind the object, not the environment",
+         edit(input, parse_color, [](Scene& scene, const Vec3d& color) {
+             scene.environment.background = false;
+             scene.environment.background_color = color;
+         })}};
+    command.options.insert(command.options.end(), options.begin(), options.end());
+}
+
+void add_picture_size_options(Command& command, SceneInput& input) {
+    command.options.push_back(
+        {"--width", "N", "of the picture in pixels [1280]", whole_number(input.width, 1, 65536)});
+    command.options.push_back({"--height", "N", "[720]", whole_number(input.height, 1, 65536)});
+}
+
+LoadedScene load_scene(const SceneInput& input, const Shared& shared, const Progress& progress) {
+    const bool has_file = !input.file.empty();
+    if (has_file &&
+        (!input.mesh.empty() || !input.material.empty() || !input.material_edits.empty())) {
+        throw Error(Errc::usage,
+                    fmt::format("--mesh, --material and what changes a material say what the only "
+                                "object is; {} has objects of its own",
+                                input.file));
+    }
+    LoadedScene loaded;
+    loaded.scene = has_file ? read_scene(input.file) : Scene{};
+    if (!has_file) loaded.scene.objects.push_back(only_object(input));
+    for (const auto& edit : input.edits) edit(loaded.scene);
+    AssetOptions options;
+    options.memory_limit = shared.memory_limit;
+    options.progress = progress;
+    loaded.assets =
+        std::make_shared<const SceneAssets>(load_assets(loaded.scene, folder_of(input), options));
+    if ((!has_file || !input.camera.empty()) && !loaded.scene.objects.empty())
+        place_camera(loaded.scene, *loaded.assets, input);
+    return loaded;
+}
+
+bool holds_radiance(const std::string& target) {
+    return target.ends_with(".exr") || target.ends_with(".hdr") || target.ends_with(".pfm");
+}
+
+}  // namespace mirrorball::cli
