@@ -46,17 +46,21 @@ inline EnvironmentMap smooth_environment(int width = 128) {
     return sampled(Projection::equirect, width, smooth_light);
 }
 
-inline EnvironmentMap builtin_environment(const std::string& name, int width = 128) {
-    return make_builtin(name, Projection::equirect, width, default_axes(Projection::equirect));
+/// Drawn once.
+inline const EnvironmentMap& builtin_environment(const std::string& name, int width = 128) {
+    static std::map<std::pair<std::string, int>, EnvironmentMap> drawn;
+    EnvironmentMap& map = drawn[{name, width}];
+    if (map.levels.empty())
+        map = make_builtin(name, Projection::equirect, width, default_axes(Projection::equirect));
+    return map;
 }
 
-/// The environment and all built-in meshes; those made of several pieces a little coarser than
-/// usual.
+/// The environment and all built-in meshes.
 inline std::shared_ptr<SceneAssets> assets_in(const EnvironmentMap& environment) {
     auto assets = std::make_shared<SceneAssets>();
     assets->environment = environment;
     for (const BuiltinMesh& mesh : builtin_meshes())
-        assets->meshes[mesh.name] = make_mesh(mesh.name, mesh.name == "teapot" ? 6 : 16);
+        assets->meshes[mesh.name] = make_mesh(mesh.name, mesh.name == "teapot" ? 8 : 16);
     return assets;
 }
 

@@ -7,7 +7,7 @@
 #include <mirrorball/lookup.h>
 
 #include "gl_test.h"
-#include "truth.h"
+#include "seen.h"
 
 namespace mirrorball::gl {
 namespace {
@@ -18,10 +18,9 @@ class Orientation : public GlTest, public ::testing::WithParamInterface<Method> 
   protected:
     void SetUp() override {
         GlTest::SetUp();
-        chart = builtin_environment("axes", 512);
         renderer.emplace(assets_in(chart));
         scene = scene_with("sphere", mirror_material(), GetParam());
-        scene.map_size = 128;
+        scene.map_size = 64;
         // Far away, so that rays are nearly parallel and a cosine is all there is to it.
         scene.camera = {{0, 0, 50}, {0, 0, 0}, {0, 1, 0}, 2 * std::atan(1.0 / 49)};
     }
@@ -51,7 +50,7 @@ class Orientation : public GlTest, public ::testing::WithParamInterface<Method> 
         return sum / static_cast<float>(count);
     }
 
-    EnvironmentMap chart;
+    const EnvironmentMap& chart = builtin_environment("axes", 256);
     std::optional<Renderer> renderer;
     Scene scene;
 };
@@ -83,21 +82,19 @@ TEST_P(Orientation, LettersAreReversedAsInAMirror) {
     int count = 0;
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
-            if (*buffer.object.at(x, y) < 0) continue;
-            const Seen seen = seen_at(Vec3d(buffer.position.rgb(x, y)),
-                                      Vec3d(buffer.normal.rgb(x, y)), scene.camera.eye);
-            const Vec3d r = seen.r();
+            if (object_at(buffer, x, y) < 0) continue;
+            const Seen seen = seen_at(buffer, x, y, scene.camera.eye);
             // Sphere maps squeeze what is behind the ball into their rim.
-            if (seen.n_dot_v < 0.35) continue;
+            if (seen.n.dot(seen.v) < 0.35) continue;
+            const Vec3d r = seen.r();
             error += (image.rgb(x, y) - look_up(chart, r)).length();
             error_if_turned += (image.rgb(x, y) - look_up(chart, {-r.x, r.y, r.z})).length();
             ++count;
         }
     }
-    // Edges of letters are blurred by a texel or two. (Vertices are 5 degrees apart, which bends
-    // them a little.)
-    EXPECT_LT(error / count, 0.06);
-    EXPECT_GT(error_if_turned / count, 4 * error / count);
+    // Edges of letters are blurred by a texel or two, and bent where only vertices know better.
+    EXPECT_LT(error / count, 0.12);
+    EXPECT_GT(error_if_turned, 3 * error);
     if (getenv("VERBOSE")) printf("%s error %.4f turned %.4f\n", std::string(name(GetParam())).c_str(), error / count, error_if_turned / count);
 }
 
