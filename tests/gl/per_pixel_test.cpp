@@ -9,45 +9,18 @@
 #include <functional>
 
 #include <gtest/gtest.h>
-#include <mirrorball/lookup.h>
 #include <mirrorball/projections/sphere.h>
 #include <mirrorball/resample.h>
 
 #include "gl_test.h"
 #include "seen.h"
+#include "sphere_map.h"
 
 namespace mirrorball::gl {
 namespace {
 
-constexpr int kWidth = 200, kHeight = 150;
+constexpr int kWidth = 160, kHeight = 120;
 constexpr double kTolerance = 1.0 / 255;
-
-double texel_solid_angle(const EnvironmentMap& map, const Vec3d& world) {
-    const Vec3d d = map.axes.to_map(world).normalized();
-    double density = 0;
-    visit(map.projection, [&](auto p) {
-        using P = decltype(p);
-        density = P::density(P::project(d));
-    });
-    return density / (static_cast<double>(map.width()) * map.height());
-}
-
-// What warp.frag does: a sphere map whose texels are looked up in a cube, in the level that suits.
-EnvironmentMap warped_to_sphere(const EnvironmentMap& cube, const Axes& axes) {
-    const int size = 2 * cube.width();
-    EnvironmentMap map = make_environment_map({Projection::sphere, size, axes});
-    for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
-            const FacePoint<double> place{0, (x + 0.5) / size, (y + 0.5) / size};
-            const Vec3d d = axes.to_world(SphereMap::covers(place) ? SphereMap::direction(place)
-                                                                   : Vec3d(0, 0, -1));
-            const double lod =
-                0.5 * std::log2(16.0 / (size * size) / texel_solid_angle(cube, d));
-            map.levels[0].faces[0].set_rgb(x, y, look_up_at_lod(cube, d, std::max(0.0, lod)));
-        }
-    }
-    return map;
-}
 
 ReflectionMaps maps_for(const Scene& scene, const EnvironmentMap& environment) {
     const Projection projection = projection_of(scene.method) == Projection::sphere
@@ -196,86 +169,34 @@ std::vector<NamedMaterial> materials() {
 
 class PerPixel : public GlTest, public ::testing::WithParamInterface<Method> {};
 
-TEST_P(PerPixel, EveryMaterialIsItsEquation) {
+// A few materials that have all of the terms, for each method; each takes a program, which a
+// processor takes long to compile.
+TEST_P(PerPixel, LooksUpWhatItsEquationSays) {
     const auto assets = assets_in(builtin_environment("sunset"));
     Renderer renderer(assets);
-    for (const NamedMaterial& named : materials()) {
-        Scene scene = scene_with("sphere", named.material, GetParam());
-        scene.map_size = 16;
-        // What is behind a ball of glass is all near the rim of a sphere map.
-        if (named.name == "glass" && GetParam() == Method::sphere) continue;
-        // At its rim a ball's pixels see ever more, most where light is refracted twice as much.
-        expect_truth(compare(renderer, *assets, scene), 0.2,
-                     std::string(name(GetParam())) + ", " + named.name);
-    }
-}
-
-TEST_P(PerPixel, LightsAndProxiesAndWhatElseASceneSays) {
-    const auto assets = assets_in(smooth_environment());
-    Renderer renderer(assets);
-    Scene scene = scene_with("torus", full_material(), GetParam());
-    scene.objects[0].material.transmission = 0;
-    scene.objects[0].transform = {{0.1, -0.2, 0.3}, 0.4, 0.5, -0.3, {1, 0.8, 1.2}};
-    scene.lights = {ScenePointLight{{2, 3, 4}, {12, 10, 8}},
-                    SceneDirectionalLight{{-2, 1, 0.5}, {0.5, 0.6, 0.9}}};
+    const std::string method(name(GetParam()));
+    Scene scene = scene_with("sphere", mirror_material(), GetParam());
     scene.map_size = 16;
-    scene.environment.intensity = 0.7;
-    for (const ToneMap tone_map : {ToneMap::none, ToneMap::reinhard, ToneMap::aces, ToneMap::agx}) {
-        scene.tone_map = tone_map;
-        scene.exposure = 0.4;
-        expect_truth(compare(renderer, *assets, scene), 0.25,
-                     std::string(name(GetParam())) + ", " + std::string(name(tone_map)));
-    }
-    scene.environment.captured_at = {0.5, 0.2, -0.3};
-    const std::pair<const char*, Proxy> proxies[] = {
-        {"in a box", BoxProxy{{-3, -2, -4}, {3, 4, 5}}},
-        {"in a ball", SphereProxy{{0.5, 0.5, 0}, 6}},
-        // Parts of the torus are outside; some rays from there meet the proxy, others miss it.
-        {"half in a box", BoxProxy{{-0.5, -3, -3}, {3, 3, 3}}},
-        {"half in a ball", SphereProxy{{1, 0, 0}, 1.5}},
-    };
-    for (const auto& [what, proxy] : proxies) {
-        scene.environment.proxy = proxy;
-        expect_truth(compare(renderer, *assets, scene), 0.25,
-                     std::string(name(GetParam())) + ", " + what);
-    }
+    expect_truth(compare(renderer, *assets, scene), 0.15, method + ", mirror");
+    scene.objects[0].material = full_material();
+    scene.objects[0].material.lobe = parse_lobe("phong:40");
+    // What is behind a ball of glass is all near the rim of a sphere map.
+    if (GetParam() == Method::sphere) scene.objects[0].material.transmission = 0;
+    expect_truth(compare(renderer, *assets, scene), 0.15, method + ", all terms");
 }
 
-TEST_P(PerPixel, InsideABallOfGlass) {
+TEST_P(PerPixel, OfAnythingInARoom) {
     const auto assets = assets_in(smooth_environment());
-    Renderer renderer(assets);
-    Material glass = mirror_material();
-    glass.transmission = 1, glass.fresnel = Fresnel::dielectric(1.5);
-    glass.coupling = Coupling::layered;
-    Scene scene = scene_with("sphere", glass, GetParam());
-    scene.map_size = 16;
-    scene.camera = {{0.4, 0.2, 0.3}, {2, 1, 1}, {0, 1, 0}, 1.2};
-    expect_truth(compare(renderer, *assets, scene), 0.25, std::string(name(GetParam())));
-}
-
-TEST_P(PerPixel, PicturesAndLobesLitByLamps) {
-    const auto assets = assets_in(smooth_environment());
-    Image checks(4, 4, 3);
-    for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x)
-            checks.set_rgb(x, y, (x + y) % 2 ? Vec3f(0.8f, 0.7f, 0.2f) : Vec3f(0.1f, 0.2f, 0.5f));
-    assets->pictures["checks"] = checks;
     Renderer renderer(assets);
     Material material = full_material();
     material.transmission = 0;
-    material.base_color_map = "checks";
-    Scene scene = scene_with("sphere", material, GetParam());
+    Scene scene = scene_with("torus", material, GetParam());
+    scene.objects[0].transform = {{0.1, -0.2, 0.3}, 0.4, 0.5, -0.3, {1, 0.8, 1.2}};
     scene.map_size = 16;
-    scene.lights = {ScenePointLight{{2, 3, 4}, {12, 10, 8}},
-                    SceneDirectionalLight{{-2, 1, 0.5}, {0.5, 0.6, 0.9}}};
-    for (const char* lobe : {"ggx:0.3", "phong:30", "blinn-phong:80", "charlie:0.5"}) {
-        scene.objects[0].material.lobe = parse_lobe(lobe);
-        for (const Coupling coupling : {Coupling::layered, Coupling::split_sum}) {
-            scene.objects[0].material.coupling = coupling;
-            expect_truth(compare(renderer, *assets, scene), 0.25,
-                         std::string(name(GetParam())) + ", " + lobe);
-        }
-    }
+    scene.environment.intensity = 0.7;
+    scene.environment.captured_at = {0.5, 0.2, -0.3};
+    scene.environment.proxy = BoxProxy{{-3, -2, -4}, {3, 4, 5}};
+    expect_truth(compare(renderer, *assets, scene), 0.2, std::string(name(GetParam())));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -287,6 +208,89 @@ INSTANTIATE_TEST_SUITE_P(
         std::replace(text.begin(), text.end(), '-', '_');
         return text;
     });
+
+// What does not depend on how maps are looked up.
+class OneMethod : public GlTest {};
+
+TEST_F(OneMethod, EveryMaterialIsItsEquation) {
+    const auto assets = assets_in(builtin_environment("sunset"));
+    Renderer renderer(assets);
+    for (const NamedMaterial& named : materials()) {
+        Scene scene = scene_with("sphere", named.material, Method::cube);
+        scene.map_size = 16;
+        expect_truth(compare(renderer, *assets, scene), 0.05, named.name);
+    }
+}
+
+TEST_F(OneMethod, EveryToneMap) {
+    const auto assets = assets_in(smooth_environment());
+    Renderer renderer(assets);
+    Scene scene = scene_with("sphere", mirror_material(), Method::cube);
+    scene.map_size = 16;
+    scene.exposure = 0.4;
+    for (const ToneMap tone_map :
+         {ToneMap::none, ToneMap::reinhard, ToneMap::aces, ToneMap::agx, ToneMap::film}) {
+        scene.tone_map = tone_map;
+        expect_truth(compare(renderer, *assets, scene), 0.05, std::string(name(tone_map)));
+    }
+}
+
+TEST_F(OneMethod, EveryProxy) {
+    const auto assets = assets_in(smooth_environment());
+    Renderer renderer(assets);
+    Scene scene = scene_with("torus", mirror_material(), Method::cube);
+    scene.map_size = 16;
+    scene.environment.captured_at = {0.5, 0.2, -0.3};
+    const std::pair<const char*, Proxy> proxies[] = {
+        {"in a ball", SphereProxy{{0.5, 0.5, 0}, 6}},
+        // Parts of the torus are outside; some rays from there meet the proxy, others miss it.
+        {"half in a box", BoxProxy{{-0.2, -0.3, -3}, {0.8, 0.3, 3}}},
+        {"half in a ball", SphereProxy{{1, 0, 0}, 1.5}},
+    };
+    for (const auto& [what, proxy] : proxies) {
+        scene.environment.proxy = proxy;
+        expect_truth(compare(renderer, *assets, scene), 0.25, what);
+    }
+}
+
+TEST_F(OneMethod, InsideABallOfGlass) {
+    const auto assets = assets_in(smooth_environment());
+    Renderer renderer(assets);
+    Material glass = mirror_material();
+    glass.transmission = 1, glass.fresnel = Fresnel::dielectric(1.5);
+    glass.coupling = Coupling::layered;
+    Scene scene = scene_with("sphere", glass, Method::cube);
+    scene.map_size = 16;
+    scene.camera = {{0.4, 0.2, 0.3}, {2, 1, 1}, {0, 1, 0}, 1.2};
+    expect_truth(compare(renderer, *assets, scene), 0.05, "glass");
+}
+
+TEST_F(OneMethod, PicturesAndLobesInTheLightOfLamps) {
+    const auto assets = assets_in(smooth_environment());
+    Image checks(4, 4, 3);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x)
+            checks.set_rgb(x, y, (x + y) % 2 ? Vec3f(0.8f, 0.7f, 0.2f) : Vec3f(0.1f, 0.2f, 0.5f));
+    assets->pictures["checks"] = checks;
+    Renderer renderer(assets);
+    Material material = full_material();
+    material.transmission = material.mirror = 0;
+    material.base_color_map = "checks";
+    Scene scene = scene_with("sphere", material, Method::cube);
+    scene.map_size = 16;
+    scene.lights = {ScenePointLight{{2, 3, 4}, {12, 10, 8}},
+                    SceneDirectionalLight{{-2, 1, 0.5}, {0.5, 0.6, 0.9}}};
+    const std::pair<const char*, Coupling> cases[] = {{"ggx:0.3", Coupling::layered},
+                                                      {"ggx:0.3", Coupling::split_sum},
+                                                      {"phong:30", Coupling::added},
+                                                      {"blinn-phong:80", Coupling::layered},
+                                                      {"charlie:0.5", Coupling::layered}};
+    for (const auto& [lobe, coupling] : cases) {
+        scene.objects[0].material.lobe = parse_lobe(lobe);
+        scene.objects[0].material.coupling = coupling;
+        expect_truth(compare(renderer, *assets, scene), 0.05, lobe);
+    }
+}
 
 }  // namespace
 }  // namespace mirrorball::gl
