@@ -66,6 +66,6 @@ class DirectShading {
 
 /// The roughness at which a GGX surface is as wide about its axis as the lobe: for tables by
 /// roughness. phong:N and blinn-phong:4N are alike, (2 / (4N + 2))^(1/4); charlie has its own.
-[[nodiscard]] double equivalent_roughness(const Lobe& lobe);
+[[nodiscard]] double roughness_of(const Lobe& lobe);
 
 }  // namespace mirrorball

@@ -160,7 +160,7 @@ Vec3d refracted(const Vec3d& v, const Vec3d& n, double index) {
     return n * (ratio * cosine - std::sqrt(behind2)) - v * ratio;
 }
 
-double equivalent_roughness(const Lobe& lobe) {
+double roughness_of(const Lobe& lobe) {
     switch (lobe.kind) {
         case Lobe::Kind::ggx:
         case Lobe::Kind::charlie:
@@ -187,7 +187,7 @@ class DirectShading::Impl {
                 surface.glossy_map = &maps.glossy[maps.index_of(material.lobe)];
             surface.glossy_brdf = glossy_brdf(material);
             if (material.coupling == Coupling::split_sum)
-                surface.dfg.emplace(equivalent_roughness(material.lobe));
+                surface.dfg.emplace(roughness_of(material.lobe));
             if (!material.base_color_map.empty())
                 surface.picture = &assets.pictures.at(material.base_color_map);
         }
