@@ -23,6 +23,8 @@ class PerVertex : public GlTest {
     Differences between(const std::string& mesh, const Material& material, Method a, Method b,
                         Distance to_border) {
         const auto assets = assets_in(smooth_environment());
+        // So fine that what is interpolated is nearly what a pixel would find.
+        assets->meshes[mesh] = make_mesh(mesh, 64);
         Renderer renderer(assets);
         Scene scene = scene_with(mesh, material, a);
         scene.map_size = kMapSize;
