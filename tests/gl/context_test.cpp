@@ -12,7 +12,8 @@ TEST(Context, GivesEachOfTheThreeKinds) {
         EXPECT_FALSE(driver().version.empty());
         EXPECT_EQ(driver().es, api == Api::es);
         // What all these tests are run on.
-        std::cout << driver().vendor << ", " << driver().renderer << ", " << driver().version << "\n";
+        std::cout << driver().vendor << ", " << driver().renderer << ", " << driver().version
+                  << "\n";
     }
 }
 

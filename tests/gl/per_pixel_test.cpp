@@ -1,11 +1,11 @@
 // Methods that work per pixel, against the equations evaluated at each pixel.
 //
 // Both see the same place: Renderer::surfaces() has it. Maps are small, so that a pixel sees less
-// than a texel and the finest level is looked up; pixels that see more are left out, and silhouettes
-// where a pixel's neighbours, which the driver's derivatives come from, see something else. What
-// remains is rounding: half floats in textures (2^-11 of the value, about 1/4000 of what is shown)
-// and the weights of bilinear filters, for which OpenGL asks of 8 bits only (half of 1/256 of the
-// step between texels). Bound: 1/255 of what is shown, after the sRGB curve.
+// than a texel and the finest level is looked up; pixels that see more are left out, and
+// silhouettes where a pixel's neighbours, which the driver's derivatives come from, see something
+// else. What remains is rounding: half floats in textures (2^-11 of the value, about 1/4000 of what
+// is shown) and the weights of bilinear filters, for which OpenGL asks of 8 bits only (half of
+// 1/256 of the step between texels). Bound: 1/255 of what is shown, after the sRGB curve.
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -136,7 +136,6 @@ void expect_truth(const Comparison& c, double most_left_out, const std::string& 
     EXPECT_LE(c.largest, kTolerance) << what << ": pixel " << c.x << ", " << c.y;
     EXPECT_LE(c.left_out, most_left_out * (c.left_out + c.compared)) << what;
     EXPECT_GT(c.compared, 1000) << what;
-    if (getenv("VERBOSE")) printf("%-40s largest %.2f/255  left out %.1f %%\n", what.c_str(), c.largest * 255, 100.0 * c.left_out / (c.left_out + c.compared));
 }
 
 struct NamedMaterial {
@@ -199,15 +198,15 @@ TEST_P(PerPixel, OfAnythingInARoom) {
     expect_truth(compare(renderer, *assets, scene), 0.25, std::string(name(GetParam())));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Methods, PerPixel,
-    ::testing::Values(Method::cube, Method::sphere, Method::dual_paraboloid, Method::equirect,
-                      Method::octahedral, Method::cube_seams),
-    [](const auto& method) {
-        std::string text(name(method.param));
-        std::replace(text.begin(), text.end(), '-', '_');
-        return text;
-    });
+INSTANTIATE_TEST_SUITE_P(Methods, PerPixel,
+                         ::testing::Values(Method::cube, Method::sphere, Method::dual_paraboloid,
+                                           Method::equirect, Method::octahedral,
+                                           Method::cube_seams),
+                         [](const auto& method) {
+                             std::string text(name(method.param));
+                             std::replace(text.begin(), text.end(), '-', '_');
+                             return text;
+                         });
 
 // What does not depend on how maps are looked up.
 class OneMethod : public GlTest {};
