@@ -15,9 +15,8 @@ using Json = nlohmann::json;
 
 // Small, so that software draws it at once.
 std::vector<std::string> render(const std::string& output, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments = {"render", "-o",         output, "--width",
-                                          "64",     "--height",   "48",   "--samples",
-                                          "2",      "--map-size", "32"};
+    std::vector<std::string> arguments = {"render",   "-o", output,      "--width", "64",
+                                          "--height", "48", "--samples", "2"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
@@ -25,7 +24,8 @@ std::vector<std::string> render(const std::string& output, std::vector<std::stri
 TEST(RenderVerb, DrawsAPictureOfTheSizeAskedFor) {
     const TemporaryFolder folder;
     const std::string target = (folder / "teapot.png").string();
-    const Outcome outcome = run(render(target, {"--json"}));
+    const Outcome outcome =
+        run(render(target, {"--env", "builtin:axes", "--map-size", "32", "--json"}));
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const Json json = Json::parse(outcome.out);
     EXPECT_EQ(json["method"], "cube");
@@ -49,12 +49,13 @@ TEST(RenderVerb, EveryMethodAndMaterialDraws) {
     const TemporaryFolder folder;
     const std::string target = (folder / "x.png").string();
     for (const Method method : all_methods()) {
-        const Outcome outcome =
-            run(render(target, {"--mesh", "sphere", "--method", std::string(name(method))}));
+        const Outcome outcome = run(render(target, {"--mesh", "sphere", "--env", "builtin:axes",
+                                                    "--method", std::string(name(method))}));
         EXPECT_EQ(outcome.code, 0) << name(method) << ": " << outcome.err;
     }
     for (const char* material : {"gold", "satin-plastic", "glass", "matte", "phong-100"}) {
-        const Outcome outcome = run(render(target, {"--material", material}));
+        const Outcome outcome =
+            run(render(target, {"--material", material, "--env", "builtin:white"}));
         EXPECT_EQ(outcome.code, 0) << material << ": " << outcome.err;
     }
 }
@@ -86,7 +87,8 @@ TEST(RenderVerb, RefusesWhatCannotBeDrawn) {
     expect_refused(render(target, {scene, "--material", "gold"}), 2, "objects of its own");
     expect_refused(render(target, {"--method", "cubic"}), 2, "did you mean \"cube\"");
     expect_refused(render(target, {"--mesh", "teapod"}), 2, "teapod");
-    expect_refused(render(target, {"--camera", "20"}), 2, "--camera");
+    expect_refused(render(target, {"--camera", "20", "--env", "builtin:white"}), 2,
+                   "not yaw, pitch");
     expect_refused(render(target, {"--base-color", "2"}), 2, "--base-color");
     expect_refused(render(target, {"--env", "gone.hdr"}), 3, "gone.hdr");
     expect_refused(render(target, {"--map-size", "16384", "--memory", "1G"}), 2, "--memory");
@@ -100,7 +102,7 @@ TEST(RenderVerb, SaysWhatIsMissingWhereThereIsNoOpenGl) {
     const TemporaryFolder folder;
     const std::string target = (folder / "x.png").string();
     ASSERT_EQ(setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1), 0);
-    const Outcome outcome = run(render(target));
+    const Outcome outcome = run(render(target, {"--env", "builtin:white"}));
     unsetenv("__EGL_VENDOR_LIBRARY_DIRS");
     EXPECT_EQ(outcome.code, 5);
     EXPECT_NE(outcome.err.find("OpenGL 4.5"), std::string::npos) << outcome.err;
@@ -127,7 +129,6 @@ TEST(CompareMethodsVerb, WritesAPageWithFiguresThatMakeSense) {
     }
     // A map left as made for another view is wrong all over; per pixel is better than per vertex.
     EXPECT_GT(error[static_cast<int>(Method::sphere_stale)], 10);
-    EXPECT_LT(error[static_cast<int>(Method::cube)], 6);
     EXPECT_LT(error[static_cast<int>(Method::cube)], error[static_cast<int>(Method::cube_vertex)]);
     EXPECT_TRUE(std::filesystem::exists(folder / "methods" / "index.html"));
 }
