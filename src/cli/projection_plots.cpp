@@ -88,16 +88,14 @@ class Section {
             svg.path({spot(i - 0.55, radius), spot(i + 0.55, radius)},
                      {.stroke = hue(2 * kPi * i / kSteps), .fill = "", .width = width});
         }
-        const double out = radius + width / 2 + 16;
-        constexpr double kToSide = 0.93;  // letters are less wide than high
+        const double rim = radius + width / 2;
         const auto label = [&](double dx, double dy, int i, Anchor anchor) {
-            svg.text({middle.x + dx * out, middle.y - dy * out + 6}, plane_.names[i], 18,
-                     ink::kText, anchor);
+            svg.text({middle.x + dx, middle.y - dy + 6}, plane_.names[i], 18, ink::kText, anchor);
         };
-        label(kToSide, 0, 0, Anchor::start);
-        label(0, 1, 1, Anchor::middle);
-        label(-kToSide, 0, 2, Anchor::end);
-        label(0, -1, 3, Anchor::middle);
+        label(rim + 6, 0, 0, Anchor::start);
+        label(0, rim + 16, 1, Anchor::middle);
+        label(-rim - 6, 0, 2, Anchor::end);
+        label(0, -rim - 16, 3, Anchor::middle);
     }
 
     /// A row of texels, edge after edge, each in the colour of what it holds.
@@ -223,7 +221,7 @@ std::string draw(DualParaboloid, const ProjectionFacts& facts) {
     s.svg.text(s.at(0.04, -0.03), "focus", 17, ink::kText);
     s.svg.text(s.at(2.9, 1.1), "front map", 18, ink::kText, Anchor::middle);
     s.svg.text(s.at(-2.9, 1.1), "back map", 18, ink::kText, Anchor::middle);
-    s.wheel({1118, 622}, 36, 12);
+    s.wheel({300, 622}, 36, 12);
     s.foot(facts);
     return s.svg.str();
 }
