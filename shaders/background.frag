@@ -15,7 +15,7 @@ void main() {
 #ifdef PLAIN
     vec3 radiance = u_background;
 #else
-    vec3 d = u_to_map * seen_from_capture(u_eye, normalize(v_ray));
+    vec3 d = u_to_map * normalize(seen_from_capture(u_eye, normalize(v_ray)));
     float seen = length(cross(dFdx(d), dFdy(d)));
     float level = max(0.0, 0.5 * log2(max(seen, 1e-20) / texel_solid_angle(u_mirror_map, d)));
     vec3 radiance = u_intensity * look_up(u_mirror_map, d, level);

@@ -102,8 +102,11 @@ SceneMaps::SceneMaps(const EnvironmentMap& environment, Method method, int size,
     // Sphere maps are made from the six faces, for each camera anew.
     const Projection projection = is_sphere(method) ? Projection::cube : projection_of(method);
     axes_ = source_axes_ = default_axes(projection);
-    const ReflectionMaps maps = make_reflection_maps(
-        environment, lobes, projection, size_as_fine(environment, projection, size), source_axes_);
+    const int map_size = size_as_fine(environment, projection, size);
+    // Before it takes time and memory.
+    check_texture_size(target_for(projection), map_size, 1);
+    const ReflectionMaps maps =
+        make_reflection_maps(environment, lobes, projection, map_size, source_axes_);
     maps_ = upload_all(maps, method);
     if (is_sphere(method)) warped_.push_back(spheres_for(maps_));
     if (method == Method::cube_split) {
