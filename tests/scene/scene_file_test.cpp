@@ -46,7 +46,7 @@ Scene full_scene() {
     Material& m = object.material;
     m.base_color = {0.1, 0.2, 0.3};
     m.base_color_map = "wood.png";
-    m.mirror = 0.1, m.glossy = 0.2, m.diffuse = 0.3, m.transmission = 0.4;
+    m.mirror = 0.1, m.glossy = 0.2, m.diffuse = 0.3, m.transmission = 0.4, m.emission = 25;
     m.lobe = {Lobe::Kind::blinn_phong, 12.5};
     m.fresnel = Fresnel::conductor("gold").coated(1.5);
     m.coupling = Coupling::split_sum;
@@ -162,6 +162,8 @@ TEST(SceneFile, MistakesAreNamedWithTheirPlace) {
     const Mistake mistakes[] = {
         {"{\n  \"objects\": [{}, {\"material\":\n   {\"mirror\": 1.5}}]}",
          "s.json:3:15: objects[1].material.mirror: 1.5; expected a number from 0 to 1"},
+        {"{\"materials\": {\"lamp\": {\"emission\": -1}}}",
+         "materials.lamp.emission: -1; expected a number from 0 to 1000000000000"},
         {"{\"camra\": {}}",
          "s.json:1:2: no key is called \"camra\" here; did you mean \"camera\"?"},
         {"{\"camera\": {\"eye\": [1, 2]}}",
