@@ -1,5 +1,6 @@
 // The environment behind the objects.
 #include "lookup_cube.glsl"
+#include "held.glsl"
 #include "tone_map.glsl"
 #include "proxy.glsl"
 
@@ -22,6 +23,8 @@ void main() {
 #endif
 #ifdef DISPLAY
     o_color = vec4(tone_mapped(radiance), 1.0);
+#elif defined(HALF_FLOATS)
+    o_color = vec4(held(radiance), 1.0);
 #else
     o_color = vec4(radiance, 1.0);
 #endif

@@ -1,7 +1,7 @@
 // What a surface sends to the eye: the equations at Material in include/mirrorball/scene.h.
 //
 // Defined by the renderer: METHOD; HAS_MIRROR, HAS_GLOSSY, HAS_DIFFUSE, HAS_TRANSMISSION; COUPLING;
-// PROXY; DISPLAY (else radiance is written as it is).
+// PROXY; DISPLAY, HALF_FLOATS or RADIANCE: how it is written.
 #include "methods.glsl"
 
 in vec3 v_position, v_normal;
@@ -20,6 +20,7 @@ uniform float u_glossy_level;  // of the glossy map that the material's lobe is 
 #include "proxy.glsl"
 #include "material.glsl"
 #include "point_lights.glsl"
+#include "held.glsl"
 #include "tone_map.glsl"
 
 void main() {
@@ -58,6 +59,8 @@ void main() {
 #endif
 #ifdef DISPLAY
     o_color = vec4(tone_mapped(radiance), 1.0);
+#elif defined(HALF_FLOATS)
+    o_color = vec4(held(radiance), 1.0);
 #else
     o_color = vec4(radiance, 1.0);
 #endif

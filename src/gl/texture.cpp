@@ -116,6 +116,7 @@ void Texture::bind(int unit) const {
 }
 
 std::uint64_t Texture::bytes() const {
+    if (empty()) return 0;
     std::uint64_t texels = 0;
     for (int level = 0; level < level_count; ++level) {
         texels += static_cast<std::uint64_t>(std::max(1, width >> level)) *

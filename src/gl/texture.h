@@ -18,6 +18,8 @@ struct Texture {
     int width = 0, height = 0, level_count = 1;
     int layer_count = 1;  ///< six of a cube
 
+    /// Is it a name only?
+    [[nodiscard]] bool empty() const { return width == 0; }
     void bind(int unit) const;
     /// Of all levels; 8 a texel.
     [[nodiscard]] std::uint64_t bytes() const;
