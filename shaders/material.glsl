@@ -20,23 +20,25 @@ vec3 fresnel(float cosine) {
 
 struct Weights {
     vec3 layer, base;
+    vec3 compensation;  // of microfacets, for what scatters more than once
 };
 
-Weights layer_weights(float n_dot_v) {
+Weights layer_weights(float cosine) {
 #if COUPLING == ADDED
-    return Weights(fresnel(n_dot_v), vec3(1.0));
+    return Weights(fresnel(cosine), vec3(1.0), vec3(1.0));
 #elif COUPLING == LAYERED
-    vec3 f = fresnel(n_dot_v);
-    return Weights(f, vec3(1.0) - f);
+    vec3 f = fresnel(cosine);
+    return Weights(f, vec3(1.0) - f, vec3(1.0));
 #else
-    vec2 dfg = texture(u_dfg_table, vec2(n_dot_v, u_roughness)).rg;
-    float albedo = dfg.x + dfg.y;
-    vec3 several_bounces = vec3(1.0) + u_f0 * (1.0 / albedo - 1.0);
-    vec3 reflected = (u_f0 * dfg.x + u_f90 * dfg.y) * several_bounces;
-    return Weights(reflected, max(vec3(0.0), vec3(1.0) - reflected));
+    vec2 dfg = texture(u_dfg_table, vec2(cosine, u_roughness)).rg;
+    vec3 compensation = vec3(1.0) + u_f0 * (1.0 / (dfg.x + dfg.y) - 1.0);
+    vec3 reflected = (u_f0 * dfg.x + u_f90 * dfg.y) * compensation;
+    return Weights(reflected, max(vec3(0.0), vec3(1.0) - reflected), compensation);
 #endif
 }
 
-vec3 transmitted(float n_dot_v) {
-    return vec3(1.0) - fresnel(n_dot_v);
+// Where light that leaves towards v came from; index is that behind the surface over that before it.
+// Zero where it is reflected totally.
+vec3 refracted(vec3 v, vec3 n, float index) {
+    return refract(-v, n, 1.0 / index);
 }

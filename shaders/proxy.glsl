@@ -11,9 +11,11 @@ uniform float u_proxy_radius;
 
 vec3 seen_from_capture(vec3 position, vec3 d) {
 #if PROXY == BOX_PROXY
-    vec3 to_planes = max((u_proxy_least - position) / d, (u_proxy_most - position) / d);
-    float t = min(to_planes.x, min(to_planes.y, to_planes.z));
-    return t > 0.0 ? position + t * d - u_captured_at : d;
+    vec3 a = (u_proxy_least - position) / d, b = (u_proxy_most - position) / d;
+    vec3 enter = min(a, b), leave = max(a, b);
+    float near = max(0.0, max(enter.x, max(enter.y, enter.z)));
+    float far = min(leave.x, min(leave.y, leave.z));
+    return near <= far ? position + far * d - u_captured_at : d;
 #elif PROXY == SPHERE_PROXY
     vec3 from_centre = position - u_proxy_centre;
     float b = dot(from_centre, d);

@@ -25,16 +25,21 @@ uniform float u_glossy_level;  // of the glossy map that the material's lobe is 
 
 void main() {
     vec3 n = normalize(v_normal), v = normalize(u_eye - v_position);
-    bool inside = dot(n, v) < 0.0;
-    if (inside) n = -n;
-    float n_dot_v = clamp(dot(n, v), 0.0, 1.0);
+    bool behind = dot(n, v) < 0.0;
+    if (behind) n = -n;
+    float cosine = clamp(dot(n, v), 0.0, 1.0);  // at which F is taken
     vec3 r = 2.0 * dot(n, v) * n - v;
+#ifdef HAS_TRANSMISSION
+    // F is the same along a ray to either side, and curves are for the outer one.
+    vec3 t = refracted(v, n, behind ? 1.0 / u_index : u_index);
+    if (behind) cosine = clamp(-dot(n, t), 0.0, 1.0);
+#endif
 
     vec3 base_color = u_base_color;
 #ifdef HAS_BASE_COLOR_MAP
     base_color *= texture(u_base_color_map, v_texture_coordinate).rgb;
 #endif
-    Weights weights = layer_weights(n_dot_v);
+    Weights weights = layer_weights(cosine);
 
     vec3 layer = vec3(0.0), radiance = vec3(0.0);
 #ifdef HAS_MIRROR
@@ -43,19 +48,19 @@ void main() {
 #ifdef HAS_GLOSSY
     layer += u_glossy * glossy_light(seen_from_capture(v_position, r));
 #endif
-    radiance += u_intensity * weights.layer * layer;
+    radiance += weights.layer * layer;
 #ifdef HAS_DIFFUSE
-    radiance += u_intensity * weights.base * u_diffuse * base_color * irradiance(n) / PI;
+    radiance += weights.base * u_diffuse * base_color * irradiance(n) / PI;
 #endif
 #ifdef HAS_TRANSMISSION
-    vec3 t = refract(-v, n, inside ? u_index : 1.0 / u_index);
     if (dot(t, t) > 0.0) {
-        radiance += u_intensity * u_transmission * base_color * transmitted(n_dot_v) *
+        radiance += u_transmission * base_color * (vec3(1.0) - fresnel(cosine)) *
                     mirrored_light(seen_from_capture(v_position, t));
     }
 #endif
+    radiance *= u_intensity;
 #ifdef LIGHT_COUNT
-    radiance += point_lights(v_position, n, v, base_color, weights);
+    radiance += light_of_lights(v_position, n, v, base_color, weights);
 #endif
 #ifdef DISPLAY
     o_color = vec4(tone_mapped(radiance), 1.0);

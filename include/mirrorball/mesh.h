@@ -24,12 +24,13 @@ struct Mesh {
     [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
 };
 
-/// The smallest box with sides along the axes. \pre the mesh has a vertex
+/// The smallest box with sides along the axes, and the smallest ball about its centre. \pre the mesh
+/// has a vertex
 struct Bounds {
     Vec3d least, most;
+    double radius = 0;  ///< of the ball
 
     [[nodiscard]] Vec3d centre() const { return (least + most) * 0.5; }
-    [[nodiscard]] double radius() const { return (most - least).length() * 0.5; }
 };
 [[nodiscard]] Bounds bounds(const Mesh& mesh);
 

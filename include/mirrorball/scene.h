@@ -161,7 +161,8 @@ struct Camera {
 /// so far away that the ball fits.
 struct Bounds;
 [[nodiscard]] Camera framing(const Bounds& bounds, double aspect = 1, double yaw = 0.45,
-                             double pitch = 0.3);
+                             double pitch = 0.3,
+                             double field_of_view = Camera().field_of_view);
 
 /// How reflections are looked up: sections 2 and 3 of the survey. name() and parse_method() spell
 /// them as below, with - for _. docs/rendering.md shows each.

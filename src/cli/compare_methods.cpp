@@ -87,11 +87,11 @@ int run(const Options& options, const Shared& shared) {
     const SceneInput& input = options.input;
     TemporaryFolder folder(options.output);
     ProgressBar bar(shared);
-    const LoadedScene loaded = load_scene(input, shared, bar.stage("Reading", 0.1));
+    const LoadedScene loaded = load_scene(input, shared);
     const gl::Context context;
     const MethodComparison comparison =
         compare_methods(loaded, input.width, input.height, options.samples, options.methods,
-                        bar.stage("Drawing", 0.8));
+                        bar.stage("Drawing"));
     const gl::Driver driver = gl::driver();
     write_pictures(comparison, folder.path());
     const Json json = to_json(comparison, driver);

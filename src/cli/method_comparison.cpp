@@ -114,7 +114,8 @@ MethodComparison compare_methods(const LoadedScene& loaded, int width, int heigh
                                  std::span<const Method> methods, const Progress& progress) {
     gl::Renderer renderer(loaded.assets);
     const Truth truth = evaluate(loaded, renderer, width, height, sample_count);
-    MethodComparison comparison{.truth = truth.displayed};
+    MethodComparison comparison;
+    comparison.truth = truth.displayed;
     comparison.pixel_count = std::count_if(truth.seen.values().begin(), truth.seen.values().end(),
                                            [](float share) { return share >= 1; });
     comparison.constant_seconds =

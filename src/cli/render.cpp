@@ -49,7 +49,7 @@ int run(const Options& options, const Shared& shared) {
                      static_cast<std::uint64_t>(input.height),
                  "the picture", shared);
     ProgressBar bar(shared);
-    const LoadedScene loaded = load_scene(input, shared, bar.stage("Reading", 0.3));
+    const LoadedScene loaded = load_scene(input, shared);
     const gl::Context context(options.es ? gl::Api::es : gl::Api::core);
     gl::Renderer renderer(loaded.assets);
     const auto start = std::chrono::steady_clock::now();
@@ -58,7 +58,7 @@ int run(const Options& options, const Shared& shared) {
                                         .height = input.height,
                                         .sample_count = options.samples,
                                         .display = !holds_radiance(options.output),
-                                        .progress = bar.stage("Drawing", 0.7)});
+                                        .progress = bar.stage("Drawing")});
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     const WriteReport report = write_image(options.output, picture);
     bar.hide();

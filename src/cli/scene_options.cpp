@@ -212,7 +212,7 @@ void add_picture_size_options(Command& command, SceneInput& input) {
     command.options.push_back({"--height", "N", "[720]", whole_number(input.height, 1, 65536)});
 }
 
-LoadedScene load_scene(const SceneInput& input, const Shared& shared, const Progress& progress) {
+LoadedScene load_scene(const SceneInput& input, const Shared& shared) {
     const bool has_file = !input.file.empty();
     if (has_file &&
         (!input.mesh.empty() || !input.material.empty() || !input.material_edits.empty())) {
@@ -227,7 +227,6 @@ LoadedScene load_scene(const SceneInput& input, const Shared& shared, const Prog
     for (const auto& edit : input.edits) edit(loaded.scene);
     AssetOptions options;
     options.memory_limit = shared.memory_limit;
-    options.progress = progress;
     loaded.assets =
         std::make_shared<const SceneAssets>(load_assets(loaded.scene, folder_of(input), options));
     if ((!has_file || !input.camera.empty()) && !loaded.scene.objects.empty())

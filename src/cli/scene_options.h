@@ -35,8 +35,7 @@ struct LoadedScene {
     std::shared_ptr<const SceneAssets> assets;
 };
 /// \throws Error(Errc::usage) for options that do not go together; what reading files throws
-[[nodiscard]] LoadedScene load_scene(const SceneInput& input, const Shared& shared,
-                                     const Progress& progress = {});
+[[nodiscard]] LoadedScene load_scene(const SceneInput& input, const Shared& shared);
 
 /// .exr, .hdr and .pfm hold radiance, all others what a screen shows.
 [[nodiscard]] bool holds_radiance(const std::string& target);

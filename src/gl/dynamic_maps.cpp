@@ -29,7 +29,7 @@ int stored_depth_count(const ObjectMaps::Key& key) {
 std::vector<View> views_from(const SceneObject& object, const Bounds& bounds) {
     const Vec3d& scale = object.transform.scale;
     const double largest = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
-    const double nearest = kNearest * std::max(bounds.radius() * largest, 1e-6);
+    const double nearest = kNearest * std::max(bounds.radius * largest, 1e-6);
     std::vector<View> views;
     for (int face = 0; face < Cube::face_count; ++face) {
         views.push_back(

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <mirrorball/brdf.h>
+#include <mirrorball/direct.h>
 #include <mirrorball/projections/cube.h>
 #include <mirrorball/reflection_maps.h>
 #include <mirrorball/resample.h>
@@ -57,6 +59,22 @@ std::string_view glsl_name(Coupling coupling) {
     return {};
 }
 
+// What lights without extent show of a lobe; 0 where they show nothing.
+std::string_view glsl_name(Lobe::Kind kind) {
+    switch (kind) {
+        case Lobe::Kind::phong:
+            return "PHONG";
+        case Lobe::Kind::blinn_phong:
+            return "BLINN_PHONG";
+        case Lobe::Kind::ggx:
+            return "GGX";
+        case Lobe::Kind::charlie:
+            return "CHARLIE";
+        default:
+            return "0";
+    }
+}
+
 std::string_view glsl_name(const Proxy& proxy) {
     if (std::holds_alternative<BoxProxy>(proxy)) return "BOX_PROXY";
     if (std::holds_alternative<SphereProxy>(proxy)) return "SPHERE_PROXY";
@@ -88,8 +106,10 @@ Definitions definitions_for(const Scene& scene, const Material& material, const 
     if (material.diffuse > 0) definitions.emplace_back("HAS_DIFFUSE");
     if (material.transmission > 0) definitions.emplace_back("HAS_TRANSMISSION");
     if (!material.base_color_map.empty()) definitions.emplace_back("HAS_BASE_COLOR_MAP");
-    if (!scene.lights.empty())
+    if (!scene.lights.empty()) {
         definitions.push_back(fmt::format("LIGHT_COUNT {}", scene.lights.size()));
+        definitions.push_back(fmt::format("LOBE {}", glsl_name(material.lobe.kind)));
+    }
     if (shot.layered()) definitions.emplace_back("LAYERED");
     return definitions;
 }
@@ -122,19 +142,19 @@ void set_lights(const Program& program, std::span<const SceneLight> lights) {
     }
 }
 
-// The roughness whose column of the DFG table suits a lobe: of equal width about its axis.
-double roughness_of(const Lobe& lobe) {
-    switch (lobe.kind) {
-        case Lobe::Kind::ggx:
-        case Lobe::Kind::charlie:
-            return lobe.parameter;
-        case Lobe::Kind::phong:
-            return std::pow(2 / (4 * lobe.parameter + 2), 0.25);
-        case Lobe::Kind::blinn_phong:
-            return std::pow(2 / (lobe.parameter + 2), 0.25);
-        default:
-            return 0;
-    }
+// BRDFs have exponents to a million; next to a light without extent no one sees the difference.
+double exponent_of(const Lobe& lobe) {
+    return std::min(lobe.parameter, 1e6);
+}
+
+// What normalises a cosine lobe as a BRDF: its value at the peak.
+double lobe_scale(const Lobe& lobe) {
+    const Vec3d normal(0, 0, 1);
+    if (lobe.kind == Lobe::Kind::phong)
+        return Brdf(Phong{.exponent = exponent_of(lobe)}).evaluate(normal, normal).x;
+    if (lobe.kind == Lobe::Kind::blinn_phong)
+        return Brdf(BlinnPhong{.exponent = exponent_of(lobe)}).evaluate(normal, normal).x;
+    return 0;
 }
 
 Mesh moved(const Mesh& mesh, const Transform& transform) {
@@ -221,10 +241,12 @@ void Painter::set_material(const Program& program, const Material& material) {
     program.set("u_index", static_cast<float>(material.index));
     textures_.fresnel(material.fresnel).bind(kFresnelUnit);
     program.set("u_fresnel_map", kFresnelUnit);
+    program.set("u_roughness", static_cast<float>(roughness_of(material.lobe)));
+    program.set("u_exponent", static_cast<float>(exponent_of(material.lobe)));
+    program.set("u_lobe_scale", static_cast<float>(lobe_scale(material.lobe)));
     if (material.coupling == Coupling::split_sum) {
         textures_.dfg().bind(kDfgUnit);
         program.set("u_dfg_table", kDfgUnit);
-        program.set("u_roughness", static_cast<float>(roughness_of(material.lobe)));
         program.set("u_f0", material.fresnel(1));
         program.set("u_f90", material.fresnel(0));
     }

@@ -50,13 +50,15 @@ Vec3d view_ray(const Camera& camera, double x, double y, double aspect) {
         .normalized();
 }
 
-Camera framing(const Bounds& bounds, double aspect, double yaw, double pitch) {
+Camera framing(const Bounds& bounds, double aspect, double yaw, double pitch,
+               double field_of_view) {
     Camera camera;
+    camera.field_of_view = field_of_view;
     camera.target = bounds.centre();
     // The ball touches the frame's narrower sides, less a margin.
     const double half_height = std::tan(camera.field_of_view / 2);
     const double half_angle = std::atan(half_height * std::min(1.0, aspect));
-    const double radius = bounds.radius() > 0 ? bounds.radius() : 1;
+    const double radius = bounds.radius > 0 ? bounds.radius : 1;
     const double distance = 1.05 * radius / std::sin(half_angle);
     camera.eye = camera.target + Vec3d(std::sin(yaw) * std::cos(pitch), std::sin(pitch),
                                        std::cos(yaw) * std::cos(pitch)) *

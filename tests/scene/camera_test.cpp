@@ -66,10 +66,10 @@ TEST(Camera, LookingAlongUpIsAFrameToo) {
 
 // The ball around the bounds is in the picture, and fills most of its narrower side.
 TEST(Camera, FramingShowsTheBall) {
-    const Bounds bounds{{-1, 2, 3}, {2, 4, 9}};
+    const Bounds bounds{{-1, 2, 3}, {2, 4, 9}, 2.5};
     for (const double aspect : {0.5, 1.0, 1.78}) {
         const Camera camera = framing(bounds, aspect);
-        const double angle = std::asin(bounds.radius() / (camera.eye - bounds.centre()).length());
+        const double angle = std::asin(bounds.radius / (camera.eye - bounds.centre()).length());
         const double half = std::atan(std::tan(camera.field_of_view / 2) * std::min(1.0, aspect));
         EXPECT_LT(angle, half);
         EXPECT_GT(angle, 0.9 * half);

@@ -1,0 +1,166 @@
+// What a scene names, loaded: each name once, and every error says who wanted it.
+#include <mirrorball/scene_assets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <mirrorball/error.h>
+
+namespace mirrorball {
+namespace {
+
+// What is left of the memory that all assets may hold.
+class Budget {
+  public:
+    explicit Budget(std::uint64_t bytes) : left_(bytes) {}
+
+    [[nodiscard]] std::uint64_t left() const { return left_; }
+    void spend(std::uint64_t bytes, std::string_view name) {
+        if (bytes > left_) {
+            throw Error(Errc::cannot_read,
+                        fmt::format("{}: needs {} bytes; of the memory limit {} are left", name,
+                                    bytes, left_));
+        }
+        if (left_ != kUnlimitedMemory) left_ -= bytes;
+    }
+
+  private:
+    std::uint64_t left_;
+};
+
+template <class T>
+std::uint64_t bytes_of(const std::vector<T>& values) {
+    return values.size() * sizeof(T);
+}
+
+std::uint64_t bytes_of(const Mesh& mesh) {
+    return bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(mesh.texture_coordinates) +
+           bytes_of(mesh.indices);
+}
+
+std::uint64_t bytes_of(const Image& image) {
+    return image.values().size_bytes();
+}
+
+std::uint64_t bytes_of(const EnvironmentMap& map) {
+    std::uint64_t sum = 0;
+    for (const Level& level : map.levels)
+        for (const Image& face : level.faces) sum += bytes_of(face);
+    return sum;
+}
+
+// A name without an ending is meant to be a built-in mesh, and if it is none, that is the error.
+bool is_builtin(const std::string& name) {
+    const std::vector<BuiltinMesh> meshes = builtin_meshes();
+    return std::any_of(meshes.begin(), meshes.end(),
+                       [&](const BuiltinMesh& mesh) { return mesh.name == name; }) ||
+           !std::filesystem::path(name).has_extension();
+}
+
+Mesh load_mesh(const std::string& name, const std::filesystem::path& folder,
+               const AssetOptions& options, std::uint64_t memory) {
+    if (is_builtin(name)) return make_mesh(name, options.mesh_detail);
+    Mesh mesh = read_mesh(folder / name, {.memory_limit = memory});
+    if (mesh.indices.empty()) {
+        throw Error(Errc::cannot_read,
+                    fmt::format("{}: has no triangle", (folder / name).string()));
+    }
+    return mesh;
+}
+
+Image with_three_channels(const Image& image) {
+    Image result(image.width(), image.height(), 3);
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const bool grey = image.channels() < 3;
+            result.set_rgb(x, y, grey ? Vec3f(*image.at(x, y)) : image.rgb(x, y));
+        }
+    return result;
+}
+
+Image load_picture(const std::string& name, const std::filesystem::path& folder,
+                   std::uint64_t memory) {
+    ReadOptions options;
+    options.memory_limit = memory;
+    Image image = read_image(folder / name, options);
+    const auto is_number = [](float value) { return std::isfinite(value); };
+    if (!std::all_of(image.values().begin(), image.values().end(), is_number)) {
+        throw Error(Errc::cannot_read,
+                    fmt::format("{}: has a texel that is no number", (folder / name).string()));
+    }
+    return image.channels() == 3 ? image : with_three_channels(image);
+}
+
+// A list of files, or a pattern, or one: each of them relative to the folder.
+std::string environment_source(const std::string& source, const std::filesystem::path& folder) {
+    if (source.rfind("builtin:", 0) == 0) return source;
+    std::string result;
+    for (std::size_t start = 0; start <= source.size();) {
+        const std::size_t end = std::min(source.find(',', start), source.size());
+        if (start > 0) result += ',';
+        result += (folder / source.substr(start, end - start)).string();
+        start = end + 1;
+    }
+    return result;
+}
+
+EnvironmentMap load_environment(const SceneEnvironment& environment,
+                                const std::filesystem::path& folder, std::uint64_t memory) {
+    MapReadOptions options;
+    options.memory_limit = memory;
+    EnvironmentMap map = read_map(environment_source(environment.source, folder), options).map;
+    map.axes = rotated(map.axes, environment.yaw, environment.pitch, environment.roll);
+    return map;
+}
+
+// Errors get the name of who wanted it in front.
+template <class Load>
+auto loaded_for(const std::string& who, Load&& load) {
+    try {
+        return load();
+    } catch (const Error& error) {
+        throw Error(error.code(), fmt::format("{}: {}", who, error.what()));
+    }
+}
+
+std::string title(const Scene& scene, std::size_t i) {
+    const std::string& name = scene.objects[i].name;
+    return name.empty() ? fmt::format("objects[{}]", i)
+                        : fmt::format("objects[{}] \"{}\"", i, name);
+}
+
+}  // namespace
+
+SceneAssets load_assets(const Scene& scene, const std::filesystem::path& folder,
+                        const AssetOptions& options) {
+    SceneAssets assets;
+    Budget budget(options.memory_limit);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const SceneObject& object = scene.objects[i];
+        loaded_for(title(scene, i), [&] {
+            if (assets.meshes.count(object.mesh) == 0) {
+                Mesh mesh = load_mesh(object.mesh, folder, options, budget.left());
+                budget.spend(bytes_of(mesh), object.mesh);
+                assets.meshes[object.mesh] = std::move(mesh);
+            }
+            const std::string& map = object.material.base_color_map;
+            if (!map.empty() && assets.pictures.count(map) == 0) {
+                Image picture = load_picture(map, folder, budget.left());
+                budget.spend(bytes_of(picture), map);
+                assets.pictures[map] = std::move(picture);
+            }
+        });
+    }
+    loaded_for("environment", [&] {
+        assets.environment = load_environment(scene.environment, folder, budget.left());
+        budget.spend(bytes_of(assets.environment), scene.environment.source);
+    });
+    return assets;
+}
+
+}  // namespace mirrorball

@@ -1,0 +1,123 @@
+// Loading what a scene names: from files and from nowhere, and what every failure is called.
+#include <mirrorball/scene_assets.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include <mirrorball/error.h>
+#include <mirrorball/lookup.h>
+
+#include "support.h"
+
+namespace mirrorball {
+namespace {
+
+void write_triangle(const std::filesystem::path& path) {
+    std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+}
+
+Scene small_scene() {
+    Scene scene;
+    scene.environment.source = "sky.hdr";
+    return scene;
+}
+
+void write_sky(const std::filesystem::path& path) {
+    Image image(8, 4, 3);
+    for (float& value : image.values()) value = 1;
+    image.set_rgb(4, 1, {2, 2, 2});
+    write_image(path, image);
+}
+
+std::string refusal(const Scene& scene, const std::filesystem::path& folder,
+                    const AssetOptions& options = {}) {
+    try {
+        (void)load_assets(scene, folder, options);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "not refused";
+}
+
+TEST(SceneAssets, FilesBesideTheScene) {
+    const TemporaryFolder folder;
+    write_sky(folder / "sky.hdr");
+    write_triangle(folder / "a.obj");
+    Image picture(2, 1, 1);
+    *picture.at(0, 0) = 1;
+    write_image(folder / "grey.pfm", picture);
+    Scene scene = small_scene();
+    scene.objects.resize(3);
+    scene.objects[0].mesh = "a.obj";
+    scene.objects[1].mesh = "a.obj";
+    scene.objects[2].mesh = "torus";
+    scene.objects[2].material.base_color_map = "grey.pfm";
+    const SceneAssets assets = load_assets(scene, folder.path(), {.mesh_detail = 2});
+    EXPECT_EQ(assets.meshes.size(), 2u);
+    EXPECT_EQ(assets.meshes.at("a.obj").triangle_count(), 1u);
+    EXPECT_EQ(assets.meshes.at("torus").positions, make_mesh("torus", 2).positions);
+    EXPECT_EQ(assets.pictures.at("grey.pfm").channels(), 3);
+    EXPECT_EQ(assets.pictures.at("grey.pfm").rgb(0, 0), Vec3f(1));
+    EXPECT_EQ(assets.environment.width(), 8);
+}
+
+TEST(SceneAssets, EnvironmentIsTurnedAndNotScaled) {
+    const TemporaryFolder folder;
+    write_sky(folder / "sky.hdr");
+    Scene scene = small_scene();
+    const Vec3d lamp = Vec3d(std::sin(kPi / 8) * std::sin(3 * kPi / 8), std::cos(3 * kPi / 8),
+                             -std::cos(kPi / 8) * std::sin(3 * kPi / 8));
+    EXPECT_EQ(look_up(load_assets(scene, folder.path()).environment, lamp), Vec3f(2));
+    scene.environment.yaw = kPi / 2;  // what is ahead goes to the left
+    scene.environment.intensity = 7;
+    const EnvironmentMap turned = load_assets(scene, folder.path()).environment;
+    EXPECT_NEAR(look_up(turned, {lamp.z, lamp.y, -lamp.x}).x, 2, 1e-5);
+    EXPECT_LT(look_up(turned, lamp).x, 1.5f);
+}
+
+TEST(SceneAssets, FailuresSayWhoWantedIt) {
+    const TemporaryFolder folder;
+    write_sky(folder / "sky.hdr");
+    std::ofstream(folder / "broken.obj") << "f 1 2 3\n";
+    Scene scene = small_scene();
+    scene.objects.resize(2);
+    scene.objects[1].name = "pot";
+    const auto expect = [&](const std::string& message, const AssetOptions& options = {}) {
+        const std::string found = refusal(scene, folder.path(), options);
+        EXPECT_NE(found.find(message), std::string::npos) << found << "\nexpected " << message;
+    };
+    scene.objects[1].mesh = "none.obj";
+    expect("objects[1] \"pot\": " + (folder / "none.obj").string());
+    scene.objects[1].mesh = "broken.obj";
+    expect("objects[1] \"pot\": " + (folder / "broken.obj").string());
+    scene.objects[1].mesh = "teapod";
+    expect("teapot");
+    scene.objects[1].mesh = "cube";
+    scene.objects[0].material.base_color_map = "none.png";
+    expect("objects[0]: " + (folder / "none.png").string());
+    scene.objects[0].material.base_color_map = "";
+    expect("objects[0]: sphere: needs ", {.memory_limit = 100});
+    scene.environment.source = "none.exr";
+    expect("environment: " + (folder / "none.exr").string());
+    scene.environment.source = "builtin:moon";
+    expect("environment: ");
+}
+
+TEST(SceneAssets, SixFacesAreFoundBesideTheScene) {
+    const TemporaryFolder folder;
+    for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"}) {
+        Image image(2, 2, 3);
+        for (float& value : image.values()) value = 0.5f;
+        write_image(folder / (std::string(face) + ".hdr"), image);
+    }
+    Scene scene;
+    scene.environment.source = "px.hdr,nx.hdr,py.hdr,ny.hdr,pz.hdr,nz.hdr";
+    EXPECT_EQ(load_assets(scene, folder.path()).environment.projection, Projection::cube);
+    scene.environment.source = "%s.hdr";
+    EXPECT_EQ(load_assets(scene, folder.path()).environment.projection, Projection::cube);
+}
+
+}  // namespace
+}  // namespace mirrorball
