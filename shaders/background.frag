@@ -11,14 +11,19 @@ uniform MAP u_mirror_map;
 uniform mat3 u_to_map;
 uniform vec3 u_eye, u_background;  // background: a plain colour
 uniform float u_intensity;
+uniform float u_level;  // whose texels are as large as pixels, where it is known
 
 void main() {
 #ifdef PLAIN
     vec3 radiance = u_background;
 #else
     vec3 d = u_to_map * seen_from_capture(u_eye, normalize(v_ray));
+#ifdef LEVEL_KNOWN
+    float level = max(0.0, u_level);
+#else
     float seen = length(cross(dFdx(d), dFdy(d)));
     float level = max(0.0, 0.5 * log2(max(seen, 1e-20) / texel_solid_angle(u_mirror_map, d)));
+#endif
     vec3 radiance = u_intensity * look_up(u_mirror_map, d, level);
 #endif
 #ifdef DISPLAY

@@ -121,7 +121,7 @@ void DynamicMaps::draw_cube(const Scene& scene, std::size_t object, int depth,
     const SceneObject& self = scene.objects[object];
     const std::vector<View> views = views_from(self, painter.buffers_of(self).bounds());
     const auto draw = [&](std::span<const View> seen_from) {
-        const Shot shot{seen_from, Output::half_floats};
+        const Shot shot{seen_from, Output::half_floats, self.dynamic->size};
         painter.begin();
         for (std::size_t i = 0; i < scene.objects.size(); ++i) {
             if (i == object) continue;

@@ -12,11 +12,14 @@ namespace {
 // halving again and again with (1 3 3 1) / 8, 1/6 from bilinear filtering. Of level 0 the second.
 constexpr double kSpotInTexels = 0.645, kFinestSpotInTexels = 0.41;
 
-constexpr int kTapsPerRing = 8;
-constexpr double kRingGrowth = 1.5;
-constexpr double kSpotInRadii = 0.36;  // of a ring's spots: 0.46 of the way from one to the next
-constexpr double kFirstRing = 0.6;     // next to the angle that holds a quarter of the lobe
-constexpr double kWidestFirstRing = 0.2, kLastRing = 1.35;  // radians
+// Spots are not finer than the lobe's core is; not so wide that they need levels of few texels, on
+// which a cube's corners show; and in between grow with the distance from the axis. All in radians,
+// or next to the angle that holds a quarter of the lobe.
+constexpr double kFinestSpotInCores = 0.4, kWidestSpot = 0.14, kSpotInRadii = 0.4;
+constexpr double kWidestCore = 0.3, kLastRing = 1.5;
+// How far apart, in spots.
+constexpr double kInnerRing = 0.7, kFirstRing = 1.7, kBetweenRings = 1.3, kAlongRing = 1.8;
+constexpr int kFewestTaps = 8;
 
 // Spots all around the axis at one angle to it.
 struct Ring {
@@ -25,12 +28,18 @@ struct Ring {
 };
 
 std::vector<Ring> rings_for(const Lobe& lobe, double finest_spot) {
-    double angle = kFirstRing * std::min(lobe.angle_holding(0.25), kWidestFirstRing);
-    angle = std::max(angle, finest_spot);
-    const double last = std::min(kLastRing, lobe.angle_holding(0.9995));
-    std::vector<Ring> rings = {{0, std::max(finest_spot, 0.5 * angle), 1}};
-    for (; angle < last; angle *= kRingGrowth)
-        rings.push_back({angle, std::max(finest_spot, kSpotInRadii * angle), kTapsPerRing});
+    const double core = std::min(lobe.angle_holding(0.25), kWidestCore);
+    const double finest = std::max(finest_spot, std::min(kFinestSpotInCores * core, kWidestSpot));
+    const double last = std::min(kLastRing, lobe.angle_holding(0.999));
+    // Four next to the axis instead of one on it: how a level's texels lie matters less.
+    std::vector<Ring> rings = {{kInnerRing * finest, finest, 4}};
+    double angle = kFirstRing * finest;
+    while (angle < last) {
+        const double spot = std::max(finest, std::min(kSpotInRadii * std::sin(angle), kWidestSpot));
+        const double tap_count = std::ceil(2 * kPi * std::sin(angle) / (kAlongRing * spot));
+        rings.push_back({angle, spot, std::max(kFewestTaps, static_cast<int>(tap_count))});
+        angle += kBetweenRings * spot;
+    }
     return rings;
 }
 
@@ -74,11 +83,11 @@ std::vector<double> non_negative_least_squares(const std::vector<std::vector<dou
     return w;
 }
 
-// Errors count next to the lobe's own value there, and angles by their logarithm: the skirts of a
-// highlight matter as its middle does, until they are too faint to be seen.
+// Pearson's chi-square, the integral of error^2 over the lobe itself: skirts of a highlight that
+// hold much of its light matter as its middle does, until they are too faint to be seen.
 std::vector<double> ring_weights(const Lobe& lobe, const std::vector<Ring>& rings) {
     constexpr int kAngleCount = 160;
-    constexpr double kFaintest = 0.002;
+    constexpr double kFaintest = 0.002;  // next to the brightest
     const double first = 0.2 * std::max(rings[0].spot, 1e-4);
     std::vector<double> angles, wanted;
     for (int i = 0; i < kAngleCount; ++i) {
@@ -89,7 +98,9 @@ std::vector<double> ring_weights(const Lobe& lobe, const std::vector<Ring>& ring
     std::vector<std::vector<double>> a;
     std::vector<double> b;
     for (std::size_t i = 0; i < angles.size(); ++i) {
-        const double importance = 1 / (wanted[i] + kFaintest * brightest);
+        // angles are spaced evenly in their logarithm: dw = 2 pi angle sin(angle) d log(angle)
+        const double importance =
+            std::sqrt(angles[i] * std::sin(angles[i]) / (wanted[i] + kFaintest * brightest));
         std::vector<double> row;
         for (const Ring& ring : rings) row.push_back(importance * value(ring, angles[i]));
         a.push_back(std::move(row));

@@ -20,6 +20,4 @@ namespace mirrorball::gl {
 /// `source_texel`, the edge of level 0's texels in radians.
 [[nodiscard]] std::vector<Imath::V4f> lobe_taps(const Lobe& lobe, double source_texel);
 
-inline constexpr std::size_t kMostTaps = 160;
-
 }  // namespace mirrorball::gl

@@ -15,8 +15,42 @@
 namespace mirrorball::gl {
 namespace {
 
-// Faces of the irradiance, and of the level that it is a sum over.
-constexpr int kDiffuseFace = 16, kDiffuseSourceFace = 16;
+// Lobes with a core this wide, in radians, are summed over a level with such faces, into such
+// faces: ggx:0.38 and up.
+constexpr double kWideCore = 0.15;
+constexpr int kGatheredFace = 16, kWideFace = 32, kDiffuseFace = 16;
+constexpr int kTableSize = 256;
+
+bool is_wide(const Lobe& lobe) {
+    return !lobe.is_delta() && lobe.angle_holding(0.25) >= kWideCore;
+}
+
+// The lobe's weight by angle, next to its largest. What the level that it is summed over is blurred
+// by, a Gaussian of half a texel, is taken off: k - s^2/2 of k's Laplacian on the sphere. Not near
+// the horizon, where lobes end in a kink.
+Image lobe_table(const Lobe& lobe) {
+    constexpr double kBlur = 0.5 * 2.0 / kGatheredFace, kStep = kPi / (kTableSize - 1);
+    constexpr double kSmoothBelow = 1.3;
+    const auto value = [&](double angle) { return lobe.value(std::cos(angle)); };
+    std::vector<double> weights;
+    for (int i = 0; i < kTableSize; ++i) {
+        const double angle = i * kStep;
+        double weight = value(angle);
+        if (angle < kSmoothBelow) {
+            const double before = value(std::abs(angle - kStep)), after = value(angle + kStep);
+            const double bend = (before + after - 2 * weight) / (kStep * kStep);
+            const double slope = (after - before) / (2 * kStep);
+            const double laplacian = i == 0 ? 2 * bend : bend + slope / std::tan(angle);
+            weight = std::max(0.0, weight - kBlur * kBlur / 2 * laplacian);
+        }
+        weights.push_back(weight);
+    }
+    const double largest = *std::max_element(weights.begin(), weights.end());
+    Image table(kTableSize, 1, 1);
+    for (int i = 0; i < kTableSize; ++i)
+        *table.at(i, 0) = static_cast<float>(weights[static_cast<std::size_t>(i)] / largest);
+    return table;
+}
 
 Texture cube_room(int size, bool levels) {
     const int level_count = levels ? 1 + static_cast<int>(std::log2(size)) : 1;
@@ -36,17 +70,24 @@ MapTextures MapFilter::room(int size, const Material& material) {
     MapTextures maps;
     maps.mirror = cube_room(size, true);
     if (material.glossy > 0) {
-        const int wanted = glossy_map_size(material.lobe, Projection::cube);
-        maps.glossy.push_back(cube_room(std::min(size, wanted), false));
+        maps.glossy.push_back(cube_room(blurred_size(material.lobe, size), false));
     }
-    if (material.diffuse > 0) maps.diffuse = cube_room(std::min(size, kDiffuseFace), false);
+    if (material.diffuse > 0)
+        maps.diffuse = cube_room(blurred_size({Lobe::Kind::diffuse}, size), false);
     return maps;
 }
 
 void MapFilter::make(const MapTextures& maps, const Material& material) {
     make_levels(maps.mirror);
     if (!maps.glossy.empty()) blur(maps.mirror, material.lobe, maps.glossy[0]);
-    if (!maps.diffuse.empty()) make_irradiance(maps.mirror, maps.diffuse);
+    if (!maps.diffuse.empty()) blur(maps.mirror, {Lobe::Kind::diffuse}, maps.diffuse);
+}
+
+int MapFilter::blurred_size(const Lobe& lobe, int source_size) {
+    const int wanted = lobe.kind == Lobe::Kind::diffuse ? kDiffuseFace
+                       : is_wide(lobe)                  ? kWideFace
+                                                        : glossy_map_size(lobe, Projection::cube);
+    return std::min(source_size, wanted);
 }
 
 void MapFilter::draw_faces(const Program& program, const Texture& into, int level) const {
@@ -90,7 +131,23 @@ const std::vector<Imath::V4f>& MapFilter::taps_for(const Lobe& lobe, int source_
     return taps_.emplace_back(Taps{lobe, source_size, lobe_taps(lobe, 2.0 / source_size)}).taps;
 }
 
+const Texture& MapFilter::table_for(const Lobe& lobe) {
+    const auto found = std::find_if(tables_.begin(), tables_.end(),
+                                    [&](const Table& table) { return table.lobe == lobe; });
+    if (found != tables_.end()) return found->texture;
+    return tables_.emplace_back(Table{lobe, upload(lobe_table(lobe))}).texture;
+}
+
 void MapFilter::blur(const Texture& cube, const Lobe& lobe, const Texture& into, int level) {
+    if (is_wide(lobe)) {
+        gather(cube, lobe, into, level);
+    } else {
+        blur_by_taps(cube, lobe, into, level);
+    }
+}
+
+void MapFilter::blur_by_taps(const Texture& cube, const Lobe& lobe, const Texture& into,
+                             int level) {
     const std::vector<Imath::V4f>& taps = taps_for(lobe, cube.width);
     const Program& program =
         programs_.get("full.vert", "blur.frag", {fmt::format("TAP_COUNT {}", taps.size())});
@@ -101,15 +158,19 @@ void MapFilter::blur(const Texture& cube, const Lobe& lobe, const Texture& into,
     draw_faces(program, into, level);
 }
 
-void MapFilter::make_irradiance(const Texture& cube, const Texture& into) {
-    int level = 0;
-    while (cube.width >> level > kDiffuseSourceFace) ++level;
-    const Program& program = programs_.get("full.vert", "irradiance.frag");
+void MapFilter::gather(const Texture& cube, const Lobe& lobe, const Texture& into, int level) {
+    int source_level = 0;
+    while (cube.width >> source_level > kGatheredFace) ++source_level;
+    const Texture& table = table_for(lobe);
+    const Program& program = programs_.get("full.vert", "gather.frag");
     program.use();
     cube.bind(0);
     program.set("u_cube", 0);
-    program.set("u_level", level);
-    draw_faces(program, into, 0);
+    table.bind(1);
+    program.set("u_lobe", 1);
+    program.set("u_level", source_level);
+    program.set("u_integral", static_cast<float>(lobe.integral()));
+    draw_faces(program, into, level);
 }
 
 }  // namespace mirrorball::gl

@@ -1,5 +1,5 @@
-// MapFilter: what is made of a cube map on the graphics card: mip levels, what a lobe makes of it,
-// irradiance.
+// MapFilter: what is made of a cube map on the graphics card: mip levels, and what a lobe makes of
+// it.
 #pragma once
 
 #include <vector>
@@ -25,20 +25,30 @@ class MapFilter {
     void make_levels(const Texture& cube);
     /// The light of a cube map with levels, filtered with a lobe, into a level of another.
     void blur(const Texture& cube, const Lobe& lobe, const Texture& into, int level = 0);
-    /// The same for irradiance: a sum over all texels of a small level.
-    void make_irradiance(const Texture& cube, const Texture& into);
+
+    /// The edge of a map blurred by a lobe, of a source of that size.
+    [[nodiscard]] static int blurred_size(const Lobe& lobe, int source_size);
 
   private:
     // Draws the six faces of a level with the program that is in use.
     void draw_faces(const Program& program, const Texture& into, int level) const;
+    // Narrow lobes by lookups about each direction, wide ones by a sum over all that there is.
+    void blur_by_taps(const Texture& cube, const Lobe& lobe, const Texture& into, int level);
+    void gather(const Texture& cube, const Lobe& lobe, const Texture& into, int level);
     const std::vector<Imath::V4f>& taps_for(const Lobe& lobe, int source_size);
+    const Texture& table_for(const Lobe& lobe);
 
+    struct Table {
+        Lobe lobe;
+        Texture texture;
+    };
     struct Taps {
         Lobe lobe;
         int source_size;
         std::vector<Imath::V4f> taps;
     };
     std::vector<Taps> taps_;
+    std::vector<Table> tables_;
     ProgramCache programs_;
     Framebuffer framebuffer_;
     VertexArray nothing_;

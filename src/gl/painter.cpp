@@ -337,6 +337,9 @@ void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     Definitions definitions = {fmt::format("PROXY {}", glsl_name(environment.proxy)),
                                std::string(glsl_name(shot.output))};
     if (plain) definitions.emplace_back("PLAIN");
+    // Texels of a cube's face are those of the environment's own cube, or of one of its levels.
+    const bool has_proxy = !std::holds_alternative<std::monostate>(environment.proxy);
+    if (shot.face_size > 0 && !has_proxy) definitions.emplace_back("LEVEL_KNOWN");
     if (shot.layered()) definitions.emplace_back("LAYERED");
     const Program& program = programs_.get("background.vert", "background.frag", definitions,
                                            shot.layered() ? "background.geom" : "");
@@ -346,7 +349,11 @@ void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     program.set("u_background", environment.background_color);
     program.set("u_intensity", static_cast<float>(environment.intensity));
     program.set("u_to_map", to_map_matrix(default_axes(Projection::cube)));
-    background_for(scene).bind(kMirrorUnit);
+    const Texture& cube = background_for(scene);
+    cube.bind(kMirrorUnit);
+    if (shot.face_size > 0)
+        program.set("u_level",
+                    std::log2(static_cast<float>(cube.width) / static_cast<float>(shot.face_size)));
     program.set("u_mirror_map", kMirrorUnit);
     set_proxy(program, environment.proxy, environment.captured_at);
     set_display(program, scene);

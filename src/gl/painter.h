@@ -31,6 +31,8 @@ struct Shot {
     /// eye.
     std::span<const View> views;
     Output output = Output::display;
+    /// The edge in texels if it is of faces of a cube, in the default axes.
+    int face_size = 0;
 
     [[nodiscard]] bool layered() const { return views.size() > 1; }
 };

@@ -173,7 +173,7 @@ EnvironmentMap Renderer::Impl::capture(const Scene& scene, const Vec3d& position
     for (int face = 0; face < Cube::face_count; ++face) {
         const View view = face_view(position, map.axes, face, kNearest);
         target.bind();
-        draw_scene(scene, {{&view, 1}, Output::radiance});
+        draw_scene(scene, {{&view, 1}, Output::radiance, size});
         // The lowest row that OpenGL draws is the face's first.
         const Image flipped = target.read(3);
         Image& image = map.levels[0].faces[face];
