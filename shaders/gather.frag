@@ -3,7 +3,7 @@
 #include "projections.glsl"
 
 uniform samplerCube u_cube;
-uniform sampler2D u_lobe;  // its weight by the angle, 0 to pi, samples at the ends
+uniform sampler2D u_lobe;  // its weight by the sine of half the angle, samples at the ends
 uniform int u_face, u_level;
 uniform float u_size, u_integral;
 out vec4 o_color;
@@ -20,8 +20,8 @@ void main() {
                 vec2 at = (2.0 * vec2(column, row) + 1.0) / float(count) - 1.0;
                 vec3 l = cube_direction(face, at.x, at.y);
                 float length2 = dot(l, l);
-                float angle = acos(clamp(dot(r, l) * inversesqrt(length2), -1.0, 1.0)) / kPi;
-                float s = (angle * (samples - 1.0) + 0.5) / samples;
+                float half_sine = sqrt(max(0.0, 0.5 - 0.5 * dot(r, l) * inversesqrt(length2)));
+                float s = (half_sine * (samples - 1.0) + 0.5) / samples;
                 float weight = textureLod(u_lobe, vec2(s, 0.5), 0.0).r;
                 if (weight == 0.0) continue;
                 weight *= inversesqrt(length2) / length2;  // solid angle, times a constant

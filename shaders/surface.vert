@@ -2,7 +2,7 @@
 #include "methods.glsl"
 #include "projections.glsl"
 
-#ifdef LAYERED  // surface.geom comes in between
+#ifdef SIX_VIEWS  // surface.geom comes in between
 #define v_position g_position
 #define v_normal g_normal
 #define v_texture_coordinate g_texture_coordinate
@@ -45,7 +45,7 @@ void main() {
     v_position = world.xyz;
     v_normal = u_normal_to_world * a_normal;
     v_texture_coordinate = a_texture_coordinate;
-#ifdef LAYERED
+#ifdef SIX_VIEWS
     gl_Position = world;
 #else
     gl_Position = u_to_clip * world;

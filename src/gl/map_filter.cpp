@@ -25,16 +25,16 @@ bool is_wide(const Lobe& lobe) {
     return !lobe.is_delta() && lobe.angle_holding(0.25) >= kWideCore;
 }
 
-// The lobe's weight by angle, next to its largest. What the level that it is summed over is blurred
-// by, a Gaussian of half a texel, is taken off: k - s^2/2 of k's Laplacian on the sphere. Not near
-// the horizon, where lobes end in a kink.
+// The lobe's weight by the sine of half the angle, next to its largest. What the level that it is
+// summed over is blurred by, a Gaussian of half a texel, is taken off: k - s^2/2 of k's Laplacian
+// on the sphere. Not near the horizon, where lobes end in a kink.
 Image lobe_table(const Lobe& lobe) {
-    constexpr double kBlur = 0.5 * 2.0 / kGatheredFace, kStep = kPi / (kTableSize - 1);
+    constexpr double kBlur = 0.5 * 2.0 / kGatheredFace, kStep = 0.01;
     constexpr double kSmoothBelow = 1.3;
     const auto value = [&](double angle) { return lobe.value(std::cos(angle)); };
     std::vector<double> weights;
     for (int i = 0; i < kTableSize; ++i) {
-        const double angle = i * kStep;
+        const double angle = 2 * std::asin(i / (kTableSize - 1.0));
         double weight = value(angle);
         if (angle < kSmoothBelow) {
             const double before = value(std::abs(angle - kStep)), after = value(angle + kStep);

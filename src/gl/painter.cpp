@@ -110,7 +110,7 @@ Definitions definitions_for(const Scene& scene, const Material& material, const 
         definitions.push_back(fmt::format("LIGHT_COUNT {}", scene.lights.size()));
         definitions.push_back(fmt::format("LOBE {}", glsl_name(material.lobe.kind)));
     }
-    if (shot.layered()) definitions.emplace_back("LAYERED");
+    if (shot.layered()) definitions.emplace_back("SIX_VIEWS");
     return definitions;
 }
 
@@ -340,7 +340,7 @@ void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     // Texels of a cube's face are those of the environment's own cube, or of one of its levels.
     const bool has_proxy = !std::holds_alternative<std::monostate>(environment.proxy);
     if (shot.face_size > 0 && !has_proxy) definitions.emplace_back("LEVEL_KNOWN");
-    if (shot.layered()) definitions.emplace_back("LAYERED");
+    if (shot.layered()) definitions.emplace_back("SIX_VIEWS");
     const Program& program = programs_.get("background.vert", "background.frag", definitions,
                                            shot.layered() ? "background.geom" : "");
     program.use();
