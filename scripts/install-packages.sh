@@ -31,8 +31,10 @@ build   nlohmann-json3-dev     bake.json and the output of --json
 build   libtinyobjloader-dev   OBJ meshes
 build   libtinygltf-dev        glTF meshes
 build   libepoxy-dev           OpenGL and EGL, loaded when they are used
-test    libgl1-mesa-dri        an OpenGL driver that needs no graphics card
-test    libegl1                OpenGL without a window
+build   libegl1                OpenGL without a window
+build   libgl1                 OpenGL itself
+build   libgles2               OpenGL ES, as browsers have it
+build   libgl1-mesa-dri        a driver for it that needs no graphics card
 test    libgtest-dev           the tests
 bench   libbenchmark-dev       the benchmarks
 fuzz    clang                  libFuzzer comes with it

@@ -17,7 +17,7 @@ void main() {
 #ifdef PLAIN
     vec3 radiance = u_background;
 #else
-    vec3 d = u_to_map * seen_from_capture(u_eye, normalize(v_ray));
+    vec3 d = u_to_map * normalize(seen_from_capture(u_eye, normalize(v_ray)));
 #ifdef LEVEL_KNOWN
     float level = max(0.0, u_level);
 #else

@@ -20,8 +20,11 @@ uniform float u_finest_level;  // of the mirror map: above 0 if it is to be seen
 // The level whose texels are as large as what a pixel sees. Directions have no seams, so neither has
 // this, whatever the texture coordinates do.
 float footprint_level(vec3 d) {
-    float seen = length(cross(dFdx(d), dFdy(d)));
-    return max(u_finest_level, 0.5 * log2(max(seen, 1e-20) / texel_solid_angle(u_mirror_map, d)));
+    vec3 u = normalize(d);
+    float seen = length(cross(dFdx(u), dFdy(u)));
+    // no number where a neighbour beyond the triangle's edge has no direction to look up
+    float sure = seen > 1e-20 ? seen : 1e-20;
+    return max(u_finest_level, 0.5 * log2(sure / texel_solid_angle(u_mirror_map, d)));
 }
 
 vec3 mirrored_light(vec3 r) {

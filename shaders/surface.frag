@@ -3,6 +3,7 @@
 // Defined by the renderer: METHOD; HAS_MIRROR, HAS_GLOSSY, HAS_DIFFUSE, HAS_TRANSMISSION; COUPLING;
 // PROXY; DISPLAY, HALF_FLOATS or RADIANCE: how it is written.
 #include "methods.glsl"
+#include "normal.glsl"
 
 in vec3 v_position, v_normal;
 in vec2 v_texture_coordinate;
@@ -24,7 +25,7 @@ uniform float u_glossy_level;  // of the glossy map that the material's lobe is 
 #include "tone_map.glsl"
 
 void main() {
-    vec3 n = normalize(v_normal), v = normalize(u_eye - v_position);
+    vec3 n = unit_normal(v_normal), v = normalize(u_eye - v_position);
     bool behind = dot(n, v) < 0.0;
     if (behind) n = -n;
     float cosine = clamp(dot(n, v), 0.0, 1.0);  // at which F is taken

@@ -1,5 +1,6 @@
 // An object's vertices; with methods that work per vertex, their places on the maps too.
 #include "methods.glsl"
+#include "normal.glsl"
 #include "projections.glsl"
 
 #ifdef SIX_VIEWS  // surface.geom comes in between
@@ -51,7 +52,7 @@ void main() {
     gl_Position = u_to_clip * world;
 #endif
 #if PER_VERTEX
-    vec3 n = normalize(v_normal), v = normalize(u_eye - v_position);
+    vec3 n = unit_normal(v_normal), v = normalize(u_eye - v_position);
     vec3 r = 2.0 * dot(n, v) * n - v;
 #if METHOD == CUBE_SPLIT
     v_mirror_place = vec4(a_split_place, 0.0);

@@ -24,8 +24,8 @@ struct Mesh {
     [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
 };
 
-/// The smallest box with sides along the axes, and the smallest ball about its centre. \pre the mesh
-/// has a vertex
+/// The smallest box with sides along the axes, and the smallest ball about its centre. \pre the
+/// mesh has a vertex
 struct Bounds {
     Vec3d least, most;
     double radius = 0;  ///< of the ball
@@ -83,9 +83,10 @@ struct SplitMesh {
 };
 
 /// Cuts a mesh whose positions and normals are the world's, as an eye sees it. The cube's frame in
-/// the world is `cube_axes`. What was without gaps stays so: two triangles that share an edge are
-/// cut at the same points of it, to the bit. Normals are interpolated and not made unit again.
-/// About 1 ms for 20000 triangles.
+/// the world is `cube_axes`. Where a surface is smooth it stays without gaps: two triangles that
+/// share an edge, positions and normals, are cut at the same points of it, to the bit, whatever
+/// their indices. Normals of new vertices are interpolated and not made unit again. Some 2 ms for
+/// 20000 triangles.
 /// \pre normals are unit
 [[nodiscard]] SplitMesh split_by_cube_face(const Mesh& world_mesh, const Vec3d& eye,
                                            const Axes& cube_axes);

@@ -124,6 +124,14 @@ SceneObject only_object(const SceneInput& input) {
     return object;
 }
 
+// A map as fine as a cube of `size`, its floats, the driver's copy and one on the way there, and
+// the same for the background.
+void check_map_memory(int size, const Shared& shared) {
+    constexpr std::uint64_t kBytesPerTexel = 80;
+    const auto edge = static_cast<std::uint64_t>(size);
+    check_memory(kBytesPerTexel * 6 * edge * edge, fmt::format("a map of size {}", size), shared);
+}
+
 // Only where there is a scene file do names in the scene mean files beside it.
 std::filesystem::path folder_of(const SceneInput& input) {
     return std::filesystem::path(input.file).parent_path();
@@ -225,6 +233,7 @@ LoadedScene load_scene(const SceneInput& input, const Shared& shared) {
     loaded.scene = has_file ? read_scene(input.file) : Scene{};
     if (!has_file) loaded.scene.objects.push_back(only_object(input));
     for (const auto& edit : input.edits) edit(loaded.scene);
+    check_map_memory(loaded.scene.map_size, shared);
     AssetOptions options;
     options.memory_limit = shared.memory_limit;
     loaded.assets =

@@ -34,7 +34,8 @@ struct LoadedScene {
     Scene scene;
     std::shared_ptr<const SceneAssets> assets;
 };
-/// \throws Error(Errc::usage) for options that do not go together; what reading files throws
+/// \throws Error(Errc::usage) for options that do not go together, or maps that need more than
+/// --memory; what reading files throws
 [[nodiscard]] LoadedScene load_scene(const SceneInput& input, const Shared& shared);
 
 /// .exr, .hdr and .pfm hold radiance, all others what a screen shows.

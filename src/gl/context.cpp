@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kAdvice =
     "On Debian an OpenGL driver that needs no graphics card comes with: apt-get install "
-    "libegl1 libgl1-mesa-dri";
+    "libegl1 libgl1 libgles2 libgl1-mesa-dri";
 
 std::string_view name(Api api) {
     switch (api) {

@@ -40,8 +40,10 @@ SceneMaps::SceneMaps(const EnvironmentMap& environment, Method method, int size,
     // Sphere maps are made from the six faces, for each camera anew.
     const Projection projection = is_sphere(method) ? Projection::cube : projection_of(method);
     axes_ = default_axes(projection);
-    maps_ = upload_all(make_reflection_maps(environment, lobes, projection,
-                                            size_as_fine(environment, projection, size), axes_),
+    const int map_size = size_as_fine(environment, projection, size);
+    // Before it takes time and memory.
+    check_texture_size(target_for(projection), map_size, 1);
+    maps_ = upload_all(make_reflection_maps(environment, lobes, projection, map_size, axes_),
                        method);
     if (is_sphere(method)) warped_.emplace(method, maps_);
 }

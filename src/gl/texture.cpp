@@ -97,17 +97,6 @@ Texture upload_as(GLenum target, const EnvironmentMap& map) {
     return texture;
 }
 
-GLenum target_for(Projection projection) {
-    switch (projection) {
-        case Projection::cube:
-            return GL_TEXTURE_CUBE_MAP;
-        case Projection::dual_paraboloid:
-            return GL_TEXTURE_2D_ARRAY;
-        default:
-            return GL_TEXTURE_2D;
-    }
-}
-
 }  // namespace
 
 void Texture::bind(int unit) const {
@@ -125,14 +114,28 @@ std::uint64_t Texture::bytes() const {
     return texels * static_cast<std::uint64_t>(layer_count) * 8;
 }
 
-Texture make_texture(GLenum target, int width, int height, int level_count, int layer_count) {
-    const int largest = largest_size(target);
-    if (std::max(width, height) > largest) {
-        throw Error(Errc::unsupported,
-                    fmt::format("a map of {} x {} texels was asked for, but this OpenGL driver "
-                                "takes {} x {} at most",
-                                width, height, largest, largest));
+GLenum target_for(Projection projection) {
+    switch (projection) {
+        case Projection::cube:
+            return GL_TEXTURE_CUBE_MAP;
+        case Projection::dual_paraboloid:
+            return GL_TEXTURE_2D_ARRAY;
+        default:
+            return GL_TEXTURE_2D;
     }
+}
+
+void check_texture_size(GLenum target, int width, int height) {
+    const int largest = largest_size(target);
+    if (std::max(width, height) <= largest) return;
+    throw Error(Errc::unsupported,
+                fmt::format("a map of {} x {} texels was asked for, but this OpenGL driver takes "
+                            "{} x {} at most",
+                            width, height, largest, largest));
+}
+
+Texture make_texture(GLenum target, int width, int height, int level_count, int layer_count) {
+    check_texture_size(target, width, height);
     Texture texture{{}, target, width, height, level_count, layer_count};
     texture.bind(0);
     if (target == GL_TEXTURE_2D_ARRAY) {

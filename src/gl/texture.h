@@ -25,11 +25,17 @@ struct Texture {
     [[nodiscard]] std::uint64_t bytes() const;
 };
 
+/// \throws Error(Errc::unsupported) with both sizes if such a texture is larger than the driver takes
+void check_texture_size(GLenum target, int width, int height);
+
 /// Room without content, for drawing into: GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY or
 /// GL_TEXTURE_CUBE_MAP. Filtered linearly, between levels too; held at its edges.
-/// \throws Error(Errc::unsupported) with both sizes if it is larger than the driver takes
+/// \throws Error(Errc::unsupported) as check_texture_size() does
 [[nodiscard]] Texture make_texture(GLenum target, int width, int height, int level_count,
                                    int layer_count = 1);
+
+/// What a map of this projection is uploaded as.
+[[nodiscard]] GLenum target_for(Projection projection);
 
 /// Fills a texture's levels. Values that a half float cannot hold are clamped.
 [[nodiscard]] Texture upload(const Image& image, bool mips = false);

@@ -267,25 +267,29 @@ class BufferSource {
             if (index != 0 || binary_.empty())
                 file_.fail(
                     fmt::format("buffer {} has no uri, and there is no binary chunk", index));
-            check_length(index, "the binary chunk", length, binary_.size());
+            if (binary_.size() < length)
+                file_.fail(fmt::format("its binary chunk has {} bytes (expected {})",
+                                       binary_.size(), length));
             out.resize(length);
             std::memcpy(out.data(), binary_.data(), length);
             return;
         }
-        const std::filesystem::path path(file_.name());
-        InputFile other(path.parent_path() / decoded(uri));
-        check_length(index, other.name(), length, other.size());
         loaded_ += length;
         check_memory(file_, 2.0 * static_cast<double>(loaded_), memory_limit_);
-        out.resize(length);
-        other.read(std::as_writable_bytes(std::span<unsigned char>(out)));
+        try {
+            load_file(index, out);
+        } catch (const Error& error) {
+            file_.fail(fmt::format("buffer {}: {}", index, error.what()));
+        }
     }
 
-    void check_length(std::size_t index, const std::string& where, std::uint64_t length,
-                      std::uint64_t found) const {
-        if (length > found)
-            file_.fail(fmt::format("buffer {} is said to have {} bytes, and {} has {}", index,
-                                   length, where, found));
+    void load_file(std::size_t index, std::vector<unsigned char>& out) {
+        const auto& [uri, length] = wanted_.at(index);
+        InputFile other(std::filesystem::path(file_.name()).parent_path() / decoded(uri));
+        if (other.size() < length)
+            other.fail(fmt::format("has {} bytes (expected {})", other.size(), length));
+        out.resize(length);
+        other.read(std::as_writable_bytes(std::span<unsigned char>(out)));
     }
 
     // %20 and the like.

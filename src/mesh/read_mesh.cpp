@@ -12,44 +12,24 @@
 namespace mirrorball {
 namespace {
 
-std::string ending_of(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
+enum class Format { obj, gltf };
+
+Format format_of(const std::string& name) {
+    std::string ending = std::filesystem::path(name).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
-
-Mesh decode(const std::filesystem::path& path, std::uint64_t memory_limit) {
-    const std::string ending = ending_of(path);
-    const bool obj = ending == ".obj", gltf = ending == ".gltf" || ending == ".glb";
-    if (!obj && !gltf)
-        throw Error(Errc::cannot_read,
-                    fmt::format("{}: '{}' is no ending of a mesh's file (expected .obj, .gltf or "
-                                ".glb)",
-                                path.string(), ending));
-    detail::InputFile file(path);
-    Mesh mesh = obj ? detail::read_obj(file, memory_limit) : detail::read_gltf(file, memory_limit);
-    detail::check_finite(file, mesh);
-    detail::tidy(mesh);
-    if (mesh.indices.empty()) file.fail("it has no triangle that has an area");
-    return mesh;
+    if (ending == ".obj") return Format::obj;
+    if (ending == ".gltf" || ending == ".glb") return Format::gltf;
+    throw Error(Errc::cannot_read,
+                fmt::format("{}: '{}' is no ending of a mesh's file (expected .obj, .gltf or .glb)",
+                            name, ending));
 }
 
 bool finite(const Vec3f& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-}  // namespace
-
-Mesh read_mesh(const std::filesystem::path& path, const MeshReadOptions& options) {
-    Mesh mesh = decode(path, options.memory_limit);
-    detail::complete_normals(mesh);
-    return mesh;
-}
-
-namespace detail {
-
-void check_finite(const InputFile& file, const Mesh& mesh) {
+void check_finite(const detail::InputFile& file, const Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const char* what = nullptr;
         if (!finite(mesh.positions[i])) what = "position";
@@ -60,6 +40,26 @@ void check_finite(const InputFile& file, const Mesh& mesh) {
         if (what != nullptr)
             file.fail(fmt::format("the {} of vertex {} is not a finite number", what, i));
     }
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::filesystem::path& path, const MeshReadOptions& options) {
+    (void)format_of(path.string());  // before a file of another kind is opened
+    detail::InputFile file(path);
+    return detail::read_mesh(file, options.memory_limit);
+}
+
+namespace detail {
+
+Mesh read_mesh(InputFile& file, std::uint64_t memory_limit) {
+    Mesh mesh = format_of(file.name()) == Format::obj ? read_obj(file, memory_limit)
+                                                      : read_gltf(file, memory_limit);
+    check_finite(file, mesh);
+    tidy(mesh);
+    if (mesh.indices.empty()) file.fail("it has no triangle that has an area");
+    complete_normals(mesh);
+    return mesh;
 }
 
 void check_memory(const InputFile& file, double needed, std::uint64_t limit) {

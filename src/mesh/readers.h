@@ -14,8 +14,8 @@ namespace mirrorball::detail {
 /// Either form, told apart by content.
 [[nodiscard]] Mesh read_gltf(InputFile& file, std::uint64_t memory_limit);
 
-/// Refuses numbers that are no numbers.
-void check_finite(const InputFile& file, const Mesh& mesh);
+/// read_mesh() of a file that is open, by the ending of its name.
+[[nodiscard]] Mesh read_mesh(InputFile& file, std::uint64_t memory_limit);
 
 /// Refuses what would need more than `limit`. `needed` is as a double so that sums cannot wrap.
 void check_memory(const InputFile& file, double needed, std::uint64_t limit);

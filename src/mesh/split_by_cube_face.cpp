@@ -13,7 +13,7 @@
 //
 // Rounding must not let two faces disagree about the side on which a point lies. So the components
 // of r that are equal by definition are made equal to the bit; then "x > z" and "y > z" agree on
-// the plane x = y.
+// the plane x = y. And a point between two that are on one side of a plane, or in it, is so too.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,7 +46,7 @@ constexpr std::array<Plane, 4> planes_of(int face) {
 struct Corner {
     Vec3f position, normal;
     Vec3d r;
-    std::uint32_t index = 0;  // in the mesh that is split, or kNew
+    std::uint32_t index;  // in the mesh that is split, or kNew
 };
 constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
 
@@ -62,14 +62,27 @@ Vec3f between(const Vec3f& a, const Vec3f& b, double t) {
     return Vec3f(Vec3d(a) + (Vec3d(b) - Vec3d(a)) * t);
 }
 
+// Of a point `r` between a and b, with two components equal in magnitude: moves the third to where
+// it must be, by a rounding error, if it is on another side of a plane than both a and b are.
+void keep_on_side(Vec3d& r, const Vec3d& a, const Vec3d& b, int equal1, int equal2) {
+    const int third = 3 - equal1 - equal2;
+    for (const int i : {std::min(equal1, equal2), std::max(equal1, equal2)}) {
+        for (const double side : {1.0, -1.0}) {
+            const auto distance = [&](const Vec3d& v) { return v[i] - side * v[third]; };
+            const double da = distance(a), db = distance(b), d = distance(r);
+            if ((da >= 0 && db >= 0 && d < 0) || (da <= 0 && db <= 0 && d > 0))
+                r[third] = side * r[i];
+        }
+    }
+}
+
 // \pre the ends lie strictly on either side
 Corner crossing(const Corner& end1, const Corner& end2, const Plane& plane) {
     const bool sorted = in_order(end1, end2);
     const Corner& a = sorted ? end1 : end2;
     const Corner& b = sorted ? end2 : end1;
     const double da = plane.distance(a.r), db = plane.distance(b.r);
-    // Equal only if the ends of the edge lie in the plane, and rounding made a point between them
-    // appear not to.
+    // Equal only if the triangle's r is almost 0 there, and rounding decides about sides.
     const double t = da == db ? 0.5 : std::clamp(da / (da - db), 0.0, 1.0);
 
     Corner c{between(a.position, b.position, t), between(a.normal, b.normal, t),
@@ -77,6 +90,7 @@ Corner crossing(const Corner& end1, const Corner& end2, const Plane& plane) {
     const double equal = (plane.sign * c.r[plane.axis] + plane.side * c.r[plane.other]) / 2;
     c.r[plane.axis] = plane.sign * equal;
     c.r[plane.other] = plane.side * equal;
+    keep_on_side(c.r, a.r, b.r, plane.axis, plane.other);
     return c;
 }
 
@@ -167,13 +181,23 @@ bool belongs_to_earlier_face(const Triangle& triangle, const std::array<Plane, 4
     });
 }
 
+// The part of the triangle that reflects into the face; none for most faces, and most planes around
+// the others do not meet the triangle.
 Polygon piece_on_face(const Triangle& triangle, int face) {
     const std::array<Plane, 4> planes = planes_of(face);
+    bool meets[4];
+    for (int i = 0; i < 4; ++i) {
+        int outside = 0;
+        for (const Corner& corner : triangle) outside += planes[i].distance(corner.r) < 0 ? 1 : 0;
+        if (outside == 3) return {};
+        meets[i] = outside > 0;
+    }
+    if (belongs_to_earlier_face(triangle, planes)) return {};
+
     Polygon polygon;
-    if (belongs_to_earlier_face(triangle, planes)) return polygon;
     for (int i = 0; i < 3; ++i) polygon.add(triangle[i], i);
     for (int by = 0; by < 4 && polygon.count > 0; ++by)
-        polygon = clip(polygon, triangle, planes, by);
+        if (meets[by]) polygon = clip(polygon, triangle, planes, by);
     return polygon;
 }
 

@@ -26,15 +26,41 @@ struct Weights {
     Vec3d compensation{1};  // of microfacets, for what scatters more than once
 };
 
-Weights weights_of(const Material& material, double cosine) {
-    if (material.coupling == Coupling::split_sum) {
-        const Dfg dfg = ggx_dfg(cosine, roughness_of(material.lobe));
-        const Vec3d f0 = material.fresnel(1), f90 = material.fresnel(0);
-        const Vec3d compensation = energy_compensation(f0, dfg.albedo());
-        const Vec3d reflected = (f0 * dfg.scale + f90 * dfg.bias) * compensation;
-        const auto rest = [](double share) { return std::max(0.0, 1 - share); };
-        return {reflected, {rest(reflected.x), rest(reflected.y), rest(reflected.z)}, compensation};
+// A and B of one roughness by the cosine, tabulated: exact ones take too long for each pixel. The
+// samples are at squares, close to each other where the curves bend, next to grazing view.
+class DfgCurve {
+  public:
+    explicit DfgCurve(double roughness) {
+        for (int i = 0; i <= kSteps; ++i) {
+            const double root = static_cast<double>(i) / kSteps;
+            samples_.push_back(ggx_dfg(root * root, roughness));
+        }
     }
+
+    [[nodiscard]] Dfg operator()(double cosine) const {
+        const double place = std::sqrt(cosine) * kSteps;
+        const int i = std::min(static_cast<int>(place), kSteps - 1);
+        const double share = place - i;
+        const Dfg &a = samples_[i], &b = samples_[i + 1];
+        return {a.scale + (b.scale - a.scale) * share, a.bias + (b.bias - a.bias) * share};
+    }
+
+  private:
+    static constexpr int kSteps = 1024;
+
+    std::vector<Dfg> samples_;
+};
+
+Weights split_sum_weights(const Material& material, const DfgCurve& curve, double cosine) {
+    const Dfg dfg = curve(cosine);
+    const Vec3d f0 = material.fresnel(1), f90 = material.fresnel(0);
+    const Vec3d compensation = energy_compensation(f0, dfg.albedo());
+    const Vec3d reflected = (f0 * dfg.scale + f90 * dfg.bias) * compensation;
+    const auto rest = [](double share) { return std::max(0.0, 1 - share); };
+    return {reflected, {rest(reflected.x), rest(reflected.y), rest(reflected.z)}, compensation};
+}
+
+Weights fresnel_weights(const Material& material, double cosine) {
     const Coating coating =
         material.coupling == Coupling::added ? Coating::off : Coating::transparent;
     const LayerWeights weights = layer_weights(coating, material.fresnel, cosine);
@@ -160,6 +186,8 @@ class DirectShading::Impl {
             if (material.glossy > 0)
                 surface.glossy_map = &maps.glossy[maps.index_of(material.lobe)];
             surface.glossy_brdf = glossy_brdf(material);
+            if (material.coupling == Coupling::split_sum)
+                surface.dfg.emplace(roughness_of(material.lobe));
             if (!material.base_color_map.empty())
                 surface.picture = &assets.pictures.at(material.base_color_map);
         }
@@ -170,7 +198,9 @@ class DirectShading::Impl {
         const Material& material = scene_.objects[object].material;
         const Surface& surface = surfaces_[object];
         const View view = view_of(material, point, eye);
-        const Weights weights = weights_of(material, view.fresnel_cosine);
+        const Weights weights = surface.dfg
+                                    ? split_sum_weights(material, *surface.dfg, view.fresnel_cosine)
+                                    : fresnel_weights(material, view.fresnel_cosine);
         Vec3d base_color = material.base_color;
         if (surface.picture != nullptr)
             base_color *= look_up_picture(*surface.picture, point.texture_coordinates);
@@ -194,6 +224,7 @@ class DirectShading::Impl {
     struct Surface {
         const EnvironmentMap* glossy_map = nullptr;
         std::optional<Brdf> glossy_brdf;
+        std::optional<DfgCurve> dfg;  // of those coupled by split_sum
         const Image* picture = nullptr;
     };
 

@@ -128,18 +128,28 @@ TEST(Direct, Equations20And21) {
     }
 }
 
+// Tolerance: of the tabulated A and B.
 TEST(Direct, SplitSum) {
-    Material m;
-    m.mirror = 0, m.glossy = 1;
-    m.lobe = {Lobe::Kind::ggx, 0.6};
-    m.coupling = Coupling::split_sum;
-    m.fresnel = Fresnel::schlick({0.9, 0.5, 0.1});
-    const Stage stage(m, sampled(Projection::cube, 64, smooth_light));
-    const Vec3d v = Stage::eye(0.6) / 3, r(-v.x, 0, v.z), f0 = m.fresnel.f0();
-    const Dfg dfg = ggx_dfg(0.6, 0.6);
-    const Vec3d light(look_up(stage.maps.glossy[0], r));
-    expect_near(stage.at(0.6), light * dfg.reflectance(f0) * energy_compensation(f0, dfg.albedo()),
-                1e-9);
+    for (const double roughness : {0.0, 0.05, 0.2, 0.6, 1.0}) {
+        Material m;
+        m.mirror = 0, m.glossy = 1;
+        m.lobe = {Lobe::Kind::ggx, roughness};
+        m.coupling = Coupling::split_sum;
+        m.fresnel = Fresnel::schlick({0.9, 0.5, 0.1});
+        const Stage stage(m, sampled(Projection::cube, 16, smooth_light), 16);
+        const DirectShading shading(stage.scene, stage.assets, stage.maps);
+        double worst = 0;
+        for (double cosine = 1e-4; cosine < 1; cosine += 0.003) {
+            const Vec3d eye = Stage::eye(cosine), v = eye / 3, r(-v.x, 0, v.z);
+            const Vec3d f0 = m.fresnel.f0(), light(look_up(stage.maps.glossy[0], r));
+            const Dfg dfg = ggx_dfg(cosine, roughness);
+            const Vec3d expected =
+                light * dfg.reflectance(f0) * energy_compensation(f0, dfg.albedo());
+            const Vec3d found = shading.surface(0, {{0, 0, 0}, {0, 0, 1}}, eye);
+            worst = std::max(worst, (found - expected).length());
+        }
+        EXPECT_LT(worst, 2e-5) << roughness;
+    }
 }
 
 // What is seen where.
@@ -267,6 +277,8 @@ TEST(Proxy, MissedFromOutsideIsLeftAlone) {
     for (const SceneEnvironment* e : {&box, &sphere}) {
         EXPECT_EQ(seen_from_capture(*e, {5, 0, 0}, {1, 0, 0}), Vec3d(1, 0, 0)) << "away from it";
         EXPECT_EQ(seen_from_capture(*e, {5, 5, 0}, {-1, 0, 0}), Vec3d(-1, 0, 0)) << "beside it";
+        EXPECT_EQ(seen_from_capture(*e, {5, 5, 5}, {-1, -0.1, -0.2}), Vec3d(-1, -0.1, -0.2))
+            << "askew beside it";
         expect_near(seen_from_capture(*e, {5, 0, 0}, {-1, 0, 0}), {-1, 0, 0}, 1e-12);
         expect_near(seen_from_capture(*e, {0, 0, 0}, {0, 0, -1}), {0, 0, -1}, 1e-12);
     }
@@ -421,7 +433,7 @@ TEST(Direct, PicturesAreTheirPoints) {
             const Vec3d n((x - 20) / 10.0, (15 - y) / 10.0, 0);
             const double z2 = 1 - n.dot(n);
             *surfaces.object.at(x, y) = z2 > 0 ? 0 : -1;
-            const Vec3f p(n.x, n.y, std::sqrt(std::max(z2, 0.0)));
+            const Vec3f p(Vec3d(n.x, n.y, std::sqrt(std::max(z2, 0.0))));
             surfaces.position.set_rgb(x, y, p);
             surfaces.normal.set_rgb(x, y, p);
         }
