@@ -96,7 +96,7 @@ void MapFilter::draw_faces(const Program& program, const Texture& into, int leve
     const int size = std::max(1, into.width >> level);
     glViewport(0, 0, size, size);
     glDisable(GL_DEPTH_TEST);
-    if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    make_cubes_seamless();
     glBindVertexArray(nothing_.name());
     program.set("u_size", static_cast<float>(size));
     for (int face = 0; face < Cube::face_count; ++face) {

@@ -241,7 +241,7 @@ void Painter::set_material(const Program& program, const Material& material) {
     program.set("u_index", static_cast<float>(material.index));
     textures_.fresnel(material.fresnel).bind(kFresnelUnit);
     program.set("u_fresnel_map", kFresnelUnit);
-    program.set("u_roughness", static_cast<float>(equivalent_roughness(material.lobe)));
+    program.set("u_roughness", static_cast<float>(roughness_of(material.lobe)));
     program.set("u_exponent", static_cast<float>(exponent_of(material.lobe)));
     program.set("u_lobe_scale", static_cast<float>(lobe_scale(material.lobe)));
     if (material.coupling == Coupling::split_sum) {
@@ -290,7 +290,7 @@ void Painter::draw_split(const SceneObject& object, const Vec3d& eye, const Look
 }
 
 void Painter::begin() {
-    if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    make_cubes_seamless();
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_TEST);

@@ -114,6 +114,10 @@ std::uint64_t Texture::bytes() const {
     return texels * static_cast<std::uint64_t>(layer_count) * 8;
 }
 
+void make_cubes_seamless() {
+    if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+}
+
 GLenum target_for(Projection projection) {
     switch (projection) {
         case Projection::cube:

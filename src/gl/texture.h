@@ -28,6 +28,10 @@ struct Texture {
 /// \throws Error(Errc::unsupported) with both sizes if such a texture is larger than the driver takes
 void check_texture_size(GLenum target, int width, int height);
 
+/// Lets lookups in cube maps filter across their edges: OpenGL ES always does, desktop OpenGL when it
+/// is told.
+void make_cubes_seamless();
+
 /// Room without content, for drawing into: GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY or
 /// GL_TEXTURE_CUBE_MAP. Filtered linearly, between levels too; held at its edges.
 /// \throws Error(Errc::unsupported) as check_texture_size() does

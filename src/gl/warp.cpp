@@ -18,6 +18,7 @@ void Warp::operator()(const Texture& cube, const Axes& cube_axes, Shape shape, c
     check_framebuffer("warping a map");
     glViewport(0, 0, into.width, into.height);
     glDisable(GL_DEPTH_TEST);
+    make_cubes_seamless();
 
     const Program& program = programs_.get("full.vert", "warp.frag",
                                            {"TARGET " + std::to_string(static_cast<int>(shape))});
