@@ -25,7 +25,8 @@ struct Texture {
     [[nodiscard]] std::uint64_t bytes() const;
 };
 
-/// \throws Error(Errc::unsupported) with both sizes if such a texture is larger than the driver takes
+/// \throws Error(Errc::unsupported) with both sizes if such a texture is larger than the driver
+/// takes
 void check_texture_size(GLenum target, int width, int height);
 
 /// Lets lookups in cube maps filter across their edges: OpenGL ES always does, desktop OpenGL when it
