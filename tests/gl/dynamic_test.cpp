@@ -212,7 +212,7 @@ Scene facing_mirrors(int bounces) {
     scene.camera.eye = {0, 0, 9};
     scene.objects = {dynamic(ball_at({-1.3, 0, 0}), {.size = 32, .bounces = bounces}),
                      dynamic(ball_at({1.3, 0, 0}), {.size = 32, .bounces = bounces})};
-    for (SceneObject& object : scene.objects) object.material.fresnel = parse_fresnel("0.8");
+    for (SceneObject& object : scene.objects) object.material.fresnel = parse_fresnel("f0=0.8");
     return scene;
 }
 
