@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <mirrorball/projections/cube.h>
-#include <mirrorball/reflection_maps.h>
 
 #include "check.h"
 #include "framebuffer_guard.h"
@@ -20,6 +19,8 @@ namespace {
 constexpr double kWideCore = 0.15;
 constexpr int kGatheredFace = 16, kWideFace = 32, kDiffuseFace = 16;
 constexpr int kTableSize = 256;
+// Narrow ones, into faces with that many texels in the core.
+constexpr double kTexelsInCore = 2.5;
 
 bool is_wide(const Lobe& lobe) {
     return !lobe.is_delta() && lobe.angle_holding(0.25) >= kWideCore;
@@ -84,10 +85,12 @@ void MapFilter::make(const MapTextures& maps, const Material& material) {
 }
 
 int MapFilter::blurred_size(const Lobe& lobe, int source_size) {
-    const int wanted = lobe.kind == Lobe::Kind::diffuse ? kDiffuseFace
-                       : is_wide(lobe)                  ? kWideFace
-                                                        : glossy_map_size(lobe, Projection::cube);
-    return std::min(source_size, wanted);
+    if (lobe.kind == Lobe::Kind::diffuse) return std::min(source_size, kDiffuseFace);
+    if (is_wide(lobe)) return std::min(source_size, kWideFace);
+    // Made for each picture, it is coarser than what is made once (glossy_map_size()).
+    int size = kWideFace;
+    while (size < source_size && 2.0 / size * kTexelsInCore > lobe.angle_holding(0.25)) size *= 2;
+    return std::min(source_size, size);
 }
 
 void MapFilter::draw_faces(const Program& program, const Texture& into, int level) const {
