@@ -85,7 +85,7 @@ void add(const std::string& what, const Material& material, Method method) {
                                  [=](benchmark::State& state) { frame(state, material, method); })
         ->Arg(720)
         ->Arg(1080)
-        ->Iterations(12)
+        ->Iterations(8)
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
 }

@@ -7,7 +7,7 @@ const float PI = 3.14159265358979;
 
 uniform vec3 u_base_color;
 uniform sampler2D u_base_color_map;
-uniform float u_mirror, u_glossy, u_diffuse, u_transmission, u_index;
+uniform float u_mirror, u_glossy, u_diffuse, u_transmission, u_index, u_emission;
 uniform sampler2D u_fresnel_map;  // section 6's: by the cosine, samples at its ends
 uniform sampler2D u_dfg_table;    // by n.v and roughness: scale, bias
 uniform float u_roughness;

@@ -1,7 +1,7 @@
 // What a surface sends to the eye: the equations at Material in include/mirrorball/scene.h.
 //
-// Defined by the renderer: METHOD; HAS_MIRROR, HAS_GLOSSY, HAS_DIFFUSE, HAS_TRANSMISSION; COUPLING;
-// PROXY; DISPLAY, HALF_FLOATS or RADIANCE: how it is written.
+// Defined by the renderer: METHOD; HAS_MIRROR, HAS_GLOSSY, HAS_DIFFUSE, HAS_TRANSMISSION,
+// HAS_EMISSION; COUPLING; PROXY; DISPLAY, HALF_FLOATS or RADIANCE: how it is written.
 #include "methods.glsl"
 #include "normal.glsl"
 
@@ -60,6 +60,9 @@ void main() {
     }
 #endif
     radiance *= u_intensity;
+#ifdef HAS_EMISSION
+    radiance += u_emission * base_color;
+#endif
 #ifdef LIGHT_COUNT
     radiance += light_of_lights(v_position, n, v, base_color, weights);
 #endif

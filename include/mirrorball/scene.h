@@ -38,12 +38,14 @@ enum class Coupling {
 ///     L_layer    = mirror L(r) + glossy L_lobe(r)
 ///     L_diffuse  = diffuse base_color E(n) / pi
 ///     L_glass    = transmission base_color (1 - F) L(t),  t refracted by `index`
+///     L_own      = emission base_color, in all directions
 ///
 /// L is the environment, L_lobe the same prefiltered by `lobe`, E its irradiance.
 struct Material {
     Vec3d base_color{1};         ///< 0 to 1
     std::string base_color_map;  ///< a picture that multiplies it, by texture coordinates; or none
     double mirror = 1, glossy = 0, diffuse = 0, transmission = 0;  ///< 0 to 1
+    double emission = 0;  ///< radiance of its own, of lamps and pictures on walls; 0 to 1e12
     /// Of the glossy term: phong, blinn-phong, ggx or charlie. \see Lobe
     Lobe lobe{Lobe::Kind::ggx, 0.3, nullptr};
     Fresnel fresnel;  ///< 1 at every angle unless it is said

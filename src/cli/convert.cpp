@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <mirrorball/error.h>
+#include <mirrorball/tone_map.h>
 
 #include "output.h"
 #include "progress.h"
@@ -26,6 +27,8 @@ struct Options {
     Rotation rotation;
     bool mirror = false;
     Interpolation interpolation = Interpolation::bicubic;
+    double exposure = 0;  // 0: none, or the usual one for a picture
+    std::optional<ToneMap> tone_map;
     MapWriteOptions write;
 };
 
@@ -87,6 +90,20 @@ EnvironmentMap converted(const EnvironmentMap& source, const Target& target, int
     return result;
 }
 
+// From radiance to what is to be shown, where that was asked for.
+void expose(EnvironmentMap& map, double usual_exposure, const Options& options) {
+    const double exposure = options.exposure > 0 ? options.exposure : usual_exposure;
+    for (Level& level : map.levels) {
+        for (Image& face : level.faces) {
+            if (options.tone_map) {
+                face = tone_mapped(face, exposure, *options.tone_map);
+            } else {
+                for (float& value : face.values()) value *= static_cast<float>(exposure);
+            }
+        }
+    }
+}
+
 // Room for the result, to be left by what is read; half of all where its size follows from that.
 std::uint64_t result_bytes(const Options& options, const Shared& shared) {
     if (!options.projection || options.size == 0) return shared.memory_limit / 2;
@@ -114,6 +131,7 @@ int run(const Options& options, const Shared& shared) {
             append_mip_levels(result, *options.levels);
         }
     }
+    if (options.tone_map || options.exposure > 0) expose(result, usual_exposure(source), options);
     print_written(options.output, result, write_map(options.output, result, options.write), shared);
     return 0;
 }
@@ -158,7 +176,13 @@ void add_options(Command& command, Options& options) {
          "HOW",
          "where the result is finer [bicubic]",
          parsed(options.interpolation, parse_interpolation),
-         {{"bilinear", "bicubic"}, true}}};
+         {{"bilinear", "bicubic"}, true}},
+        {"--exposure", "E",
+         "what radiance is multiplied by [1; with --tone-map by the environment]",
+         real_number(options.exposure, 1e-12, 1e12)},
+        {"--tone-map", "CURVE", "from light to what a screen shows, for pictures to look at",
+         [&options](const std::string& text) { options.tone_map = parse_tone_map(text); },
+         tone_map_choices()}};
 }
 
 }  // namespace
@@ -181,6 +205,7 @@ Command convert_command(Shared& shared) {
         "mirrorball convert studio.hdr -o studio.ktx2 --to cube --levels all",
         "mirrorball convert ball.jpg -o room.exr --from sphere --crop 812,604,540 --to equirect",
         "mirrorball convert faces/%s.hdr -o turned.hdr --to equirect --rotate 90,0,0",
+        "mirrorball convert builtin:sunset -o ball.png --to sphere --tone-map film",
         "mirrorball convert blender.exr -o unity.exr --axes blender --to-axes unity"};
     command.run = [options, &shared] { return run(*options, shared); };
     return command;

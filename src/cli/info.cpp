@@ -1,4 +1,4 @@
-// mirrorball info: what is in a file; and the projections compared, as measured.
+// mirrorball info: what is in a file.
 #include <memory>
 #include <optional>
 
@@ -14,65 +14,6 @@
 
 namespace mirrorball::cli {
 namespace {
-
-struct Options {
-    Input input;
-    bool projections = false;
-    int size = 512;
-};
-
-// Projections
-// ---------------------------------------------------------------------------------------
-
-Json facts_json(Projection projection, const ProjectionFacts& facts, double cube_pixels) {
-    return {{"projection", name(projection)},
-            {"faces", face_count(projection)},
-            {"used_share", facts.used_share},
-            {"solid_angle_ratio", facts.solid_angle_ratio},
-            {"worst_stretch", facts.worst_stretch},
-            {"pixels_per_degree", facts.pixels_per_degree},
-            {"pixels_relative_to_cube", facts.pixels_per_degree / cube_pixels},
-            {"seams", facts.seam_count},
-            {"poles", facts.pole_count}};
-}
-
-std::string row(Projection projection, const ProjectionFacts& facts, double cube_pixels) {
-    return fmt::format("{:<22}{:>6}{:>8.2f} %{:>12.4g}{:>10.4g}{:>10.0f}{:>9.2f}{:>7}{:>7}\n",
-                       name(projection), face_count(projection), facts.used_share * 100,
-                       facts.solid_angle_ratio, facts.worst_stretch, facts.pixels_per_degree,
-                       facts.pixels_per_degree / cube_pixels, facts.seam_count, facts.pole_count);
-}
-
-int print_projections(int size, const Shared& shared) {
-    const double cube_pixels = measure(Projection::cube, size).pixels_per_degree;
-    Json json = Json::array();
-    std::string table =
-        fmt::format("{:<22}{:>6}{:>10}{:>12}{:>10}{:>10}{:>9}{:>7}{:>7}\n", "projection", "faces",
-                    "used", "large:small", "stretch", "pixels", "of cube", "seams", "poles");
-    for (std::size_t i = 0; i < kProjectionCount; ++i) {
-        const auto projection = static_cast<Projection>(i);
-        stop_if_interrupted();
-        const ProjectionFacts facts = measure(projection, size);
-        json.push_back(facts_json(projection, facts, cube_pixels));
-        table += row(projection, facts, cube_pixels);
-    }
-    if (shared.json) return print_json(Json{{"rows_per_face", size}, {"projections", json}}), 0;
-    table += fmt::format(
-        "\nMeasured over the texels of maps with {} rows a face.\n"
-        "used         share of the pixels that hold a direction\n"
-        "large:small  largest to smallest solid angle of a texel\n"
-        "stretch      longest to shortest axis of a texel's footprint on the sphere, at its worst\n"
-        "pixels       in all, so that nowhere two texels are more than 1 degree apart;\n"
-        "of cube      the same over a cube's\n"
-        "seams        edges where neighbours on the sphere are apart on the picture\n"
-        "poles        edges or rims that are a single direction\n",
-        size);
-    print(table);
-    return 0;
-}
-
-// Files
-// ---------------------------------------------------------------------------------------------
 
 // Where the picture's middle looks, in our world.
 std::string direction_text(const Vec3d& d) {
@@ -210,13 +151,12 @@ FileFacts examine(const Input& input, const Shared& shared) {
     return facts_of(load(input, silent));
 }
 
-int run(const Options& options, const Shared& shared) {
-    if (options.projections) return print_projections(options.size, shared);
-    const FileFacts facts = examine(options.input, shared);
+int run(const Input& input, const Shared& shared) {
+    const FileFacts facts = examine(input, shared);
     if (shared.json) {
-        print_json(file_json(options.input.source, facts));
+        print_json(file_json(input.source, facts));
     } else {
-        print(file_text(options.input.source, facts));
+        print(file_text(input.source, facts));
     }
     return 0;
 }
@@ -224,22 +164,17 @@ int run(const Options& options, const Shared& shared) {
 }  // namespace
 
 Command info_command(Shared& shared) {
-    auto options = std::make_shared<Options>();
+    auto input = std::make_shared<Input>();
     Command command{.name = "info",
                     .summary = "What is in a map: size, projection, levels, range, flux, seams."};
-    add_input_argument(command, options->input, false);
-    command.options = {{"--projections", "", "compare the projections instead, as measured",
-                        flag(options->projections)},
-                       {"--size", "N", "rows of a face in that comparison [512]",
-                        whole_number(options->size, 2, 8192)}};
-    add_input_options(command, options->input);
+    add_input_argument(command, *input);
+    add_input_options(command, *input);
     add_shared_options(command, shared);
     command.notes = {
         "Flux is the integral of radiance over the sphere, per channel.",
         "A .hdr, .pfm or .exr panorama that is larger than --memory is read row by row."};
-    command.examples = {"mirrorball info studio.hdr", "mirrorball info specular.ktx2 --json",
-                        "mirrorball info --projections"};
-    command.run = [options, &shared] { return run(*options, shared); };
+    command.examples = {"mirrorball info studio.hdr", "mirrorball info specular.ktx2 --json"};
+    command.run = [input, &shared] { return run(*input, shared); };
     return command;
 }
 

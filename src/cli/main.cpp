@@ -23,6 +23,7 @@ std::vector<Command> all_commands(Shared& shared) {
                                      bake_command(shared),
                                      compare_command(shared),
                                      sky_command(shared),
+                                     projections_command(shared),
                                      brdf_command(shared),
                                      fresnel_command(shared),
                                      dfg_command(shared),

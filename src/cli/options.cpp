@@ -11,6 +11,7 @@
 #include <mirrorball/fresnel.h>
 #include <mirrorball/prefilter.h>
 #include <mirrorball/row_reader.h>
+#include <mirrorball/tone_map.h>
 
 #include "output.h"
 
@@ -98,6 +99,14 @@ Choices axes_choices() {
 Choices lobe_choices() {
     return {.values = {"mirror", "diffuse", "phong", "phong:100", "blinn-phong:400", "ggx",
                        "ggx:0.5", "charlie", "charlie:0.5"}};
+}
+
+Choices tone_map_choices() {
+    Choices choices{.values = {}, .closed = true};
+    for (const ToneMap tone_map :
+         {ToneMap::none, ToneMap::reinhard, ToneMap::aces, ToneMap::agx, ToneMap::film})
+        choices.values.emplace_back(name(tone_map));
+    return choices;
 }
 
 Choices mapping_choices() {

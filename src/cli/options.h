@@ -61,6 +61,7 @@ struct Rotation {
 [[nodiscard]] Choices axes_choices();
 [[nodiscard]] Choices lobe_choices();
 [[nodiscard]] Choices mapping_choices();
+[[nodiscard]] Choices tone_map_choices();
 [[nodiscard]] Choices input_choices();
 [[nodiscard]] Choices builtin_choices();
 /// Of a Fresnel term.

@@ -63,14 +63,6 @@ Choices material_choices() {
     return choices;
 }
 
-Choices tone_map_choices() {
-    Choices choices{.values = {}, .closed = true};
-    for (const ToneMap tone_map :
-         {ToneMap::none, ToneMap::reinhard, ToneMap::aces, ToneMap::agx, ToneMap::film})
-        choices.values.emplace_back(name(tone_map));
-    return choices;
-}
-
 // A lobe of the one object: it is what the object shows then, and not a mirror.
 void set_lobe(Material& material, const Lobe& lobe) {
     if (lobe.kind == Lobe::Kind::mirror) {

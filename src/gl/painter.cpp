@@ -105,6 +105,7 @@ Definitions definitions_for(const Scene& scene, const Material& material, const 
     if (material.glossy > 0) definitions.emplace_back("HAS_GLOSSY");
     if (material.diffuse > 0) definitions.emplace_back("HAS_DIFFUSE");
     if (material.transmission > 0) definitions.emplace_back("HAS_TRANSMISSION");
+    if (material.emission > 0) definitions.emplace_back("HAS_EMISSION");
     if (!material.base_color_map.empty()) definitions.emplace_back("HAS_BASE_COLOR_MAP");
     if (!scene.lights.empty()) {
         definitions.push_back(fmt::format("LIGHT_COUNT {}", scene.lights.size()));
@@ -238,6 +239,7 @@ void Painter::set_material(const Program& program, const Material& material) {
     program.set("u_glossy", static_cast<float>(material.glossy));
     program.set("u_diffuse", static_cast<float>(material.diffuse));
     program.set("u_transmission", static_cast<float>(material.transmission));
+    program.set("u_emission", static_cast<float>(material.emission));
     program.set("u_index", static_cast<float>(material.index));
     textures_.fresnel(material.fresnel).bind(kFresnelUnit);
     program.set("u_fresnel_map", kFresnelUnit);

@@ -209,7 +209,7 @@ class DirectShading::Impl {
             weights.layer * layer_light(material, surface, point.position, view) +
             weights.base * diffuse_light(material, view) * base_color +
             glass_light(material, point.position, view) * base_color;
-        return from_environment * scene_.environment.intensity +
+        return from_environment * scene_.environment.intensity + base_color * material.emission +
                light_of_lights(material, surface, base_color, point.position, view, weights);
     }
 

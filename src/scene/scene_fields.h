@@ -23,6 +23,7 @@ void visit_material(V& v, M& m) {
     v.number("glossy", m.glossy, 0, 1);
     v.number("diffuse", m.diffuse, 0, 1);
     v.number("transmission", m.transmission, 0, 1);
+    v.number("emission", m.emission, 0, kBrightestLight);
     v.spelled("lobe", m.lobe, parse_lobe, [](const Lobe& l) { return to_string(l); });
     v.spelled("fresnel", m.fresnel, parse_fresnel, [](const Fresnel& f) { return to_string(f); });
     v.spelled("coupling", m.coupling, parse_coupling, [](Coupling c) { return name(c); });

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <mirrorball/error.h>
+#include <mirrorball/material_presets.h>
 #include <mirrorball/scene_file.h>
 
 #include "core/nearest.h"
@@ -209,17 +210,25 @@ void Reader::proxy(const char* key, Proxy& result) {
     }
 }
 
-// Materials by name, each with what it takes over from the one it is like.
+// Materials by name, each with what it takes over from the one it is like: those of the file, and
+// the presets whose names it does not use itself.
 class Materials {
   public:
-    Materials() = default;
-    explicit Materials(const Value& value) {
+    Materials() {
+        for (const MaterialPreset& preset : material_presets()) {
+            names_.push_back(preset.name);
+            done_[preset.name] = preset.material;
+        }
+    }
+    explicit Materials(const Value& value) : Materials() {
         value.expect(JsonNode::Kind::object, "an object of materials by name");
         for (std::size_t i = 0; i < value.size(); ++i) {
-            names_.push_back(value.node().keys[i]);
-            values_.emplace(names_.back(), value.member(i));
+            const std::string& name = value.node().keys[i];
+            names_.push_back(name);
+            done_.erase(name);
+            values_.emplace(name, value.member(i));
         }
-        for (const std::string& name : names_) done_[name] = made(name);
+        for (const auto& [name, of_file] : values_) done_[name] = made(name);
     }
 
     // Of an object: a name, or a material of its own.
@@ -234,9 +243,9 @@ class Materials {
 
   private:
     void check(const Value& name) const {
-        if (values_.count(name.text()) != 0) return;
+        if (values_.count(name.text()) != 0 || done_.count(name.text()) != 0) return;
         name.fail(fmt::format("no material is called \"{}\"{}", name.text(),
-                              names_.empty() ? "" : suggestion(name.text(), names_)));
+                              suggestion(name.text(), names_)));
     }
 
     [[nodiscard]] std::optional<Value> like(const Value& value) const {

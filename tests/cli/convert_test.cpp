@@ -1,4 +1,6 @@
 // Conversions by the real program: there and back, orientation, levels, files over themselves.
+#include <mirrorball/io.h>
+
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -155,10 +157,31 @@ TEST_F(Convert, ComparesWithPictureAndExitCode) {
     EXPECT_EQ(run({"compare", file("a.hdr"), file("a.hdr"), "--level", "3"}).code, 2);
 }
 
+// A grey card stays as it is on film, at the exposure that is asked for; and half of the light of
+// white, by `none`, reads back as half.
+TEST_F(Convert, PicturesAreExposedAndToneMapped) {
+    ASSERT_EQ(run({"sky", "white", "-o", file("w.hdr"), "--size", "16"}).code, 0);
+    const auto shown = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> line = {"convert", file("w.hdr"), "-o", file("p.png")};
+        line.insert(line.end(), more.begin(), more.end());
+        const Outcome outcome = run(line);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        return read_image(file("p.png")).rgb(3, 3).x;
+    };
+    constexpr double kStep = 0.5 / 255 * 1.2;  // of 8 bits, in linear light at mid grey
+    EXPECT_NEAR(shown({"--exposure", "0.18", "--tone-map", "film"}), 0.18, kStep);
+    EXPECT_NEAR(shown({"--exposure", "0.5", "--tone-map", "none"}), 0.5, 1.5 * kStep);
+    EXPECT_NEAR(shown({"--exposure", "0.5"}), 0.5, 1.5 * kStep);
+    EXPECT_NEAR(shown({"--exposure", "9", "--tone-map", "reinhard"}), 0.9, 2 * kStep);
+    expect_refused({"convert", file("w.hdr"), "-o", file("p.png"), "--tone-map", "filmic"}, 2,
+                   "--tone-map");
+}
+
 // The figures that the survey's section 3 gives, as measured.
 TEST_F(Convert, ProjectionsAreTheSurveys) {
     std::map<std::string, Json> facts;
-    const Json table = json({"info", "--projections", "--size", "256"});
+    const Json table = json({"projections", "--size", "256"});
     for (const Json& row : table["projections"]) facts[row["projection"].get<std::string>()] = row;
     EXPECT_EQ(facts.size(), 7u);
     EXPECT_NEAR(facts["dual-paraboloid"]["used_share"], 0.785398, 1e-3);

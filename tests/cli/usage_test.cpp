@@ -164,7 +164,7 @@ TEST_F(Usage, EveryVerbPrintsOneJsonObject) {
     const std::string cube = (folder_ / "cube.ktx2").string();
     const std::vector<std::vector<std::string>> lines = {
         {"info", sky_, "--json"},
-        {"info", "--projections", "--size", "32", "--json"},
+        {"projections", "--size", "32", "--json"},
         {"sky", "--list", "--json"},
         {"convert", sky_, "-o", cube, "--to", "cube", "--size", "8", "--json"},
         {"compare", sky_, sky_, "--json"},

@@ -108,9 +108,10 @@ double texels_to_border(const Vec3d& r, int size) {
 }
 
 // On a piece of a polygon the plain texture of one face shows what the cube map does, except that
-// beyond the centres of the face's outermost texels it holds their values. (Interpolated, r points
-// a little elsewhere than at the pixel: some tenths of a texel.) There it may be off by what the
-// light changes in half a texel, 1/8 radian times 0.6.
+// beyond the centres of the outermost texels it holds their values: half a texel from the border, a
+// whole one where the next level is mixed in. (Interpolated, r points a little elsewhere than at
+// the pixel: some tenths of a texel.) There it may be off by what the light changes in half a
+// texel, 1/8 radian times 0.6.
 TEST_F(PerVertex, SplitPolygonsShowWhatTheCubeMapDoes) {
     Material coated = full_material();
     coated.transmission = coated.glossy = 0;
@@ -120,7 +121,7 @@ TEST_F(PerVertex, SplitPolygonsShowWhatTheCubeMapDoes) {
         const Differences d = between(mesh, material, Method::cube_vertex, Method::cube_split,
                                       [](const Vec3d& r) { return texels_to_border(r, kMapSize); });
         EXPECT_GT(d.covered, 2000);
-        EXPECT_LE(d.farthest, 0.8) << mesh;
+        EXPECT_LE(d.farthest, 1.3) << mesh;
         EXPECT_LE(d.largest, 0.075) << mesh;
     }
 }

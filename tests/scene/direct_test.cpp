@@ -381,6 +381,25 @@ TEST(Direct, PicturesColourTheBase) {
     expect_near(at(-0.25f, 3.25f), {0, 1, 0}, 1e-4);
     expect_near(at(0.25f, 1.75f), {0, 0, 1}, 1e-4);
     expect_near(at(0, 0), {0.5, 0.5, 0.5}, 1e-4);
+    stage.scene.objects[0].material.diffuse = 0;
+    stage.scene.objects[0].material.emission = 4;
+    expect_near(at(0.25f, 1.75f), {0, 0, 4}, 1e-6);
+}
+
+TEST(Direct, EmissionIsAddedToWhatIsReflected) {
+    Material m;
+    m.mirror = 0.5;
+    m.base_color = {0.2, 0.4, 0.8};
+    for (const Coupling coupling : kCouplings) {
+        m.coupling = coupling;
+        m.emission = 0;
+        Stage dark(m, sampled(Projection::cube, 16, smooth_light));
+        dark.scene.environment.intensity = 3;
+        Stage lamp = dark;
+        lamp.scene.objects[0].material.emission = 5;
+        for (const double cosine : {-0.7, 0.1, 1.0})
+            expect_near(lamp.at(cosine) - dark.at(cosine), m.base_color * 5.0, 1e-12);
+    }
 }
 
 // Nothing is ever no number: any material, from anywhere, edges and degenerate points included.

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <mirrorball/error.h>
+#include <mirrorball/material_presets.h>
 
 #include "support.h"
 
@@ -45,7 +46,7 @@ Scene full_scene() {
     Material& m = object.material;
     m.base_color = {0.1, 0.2, 0.3};
     m.base_color_map = "wood.png";
-    m.mirror = 0.1, m.glossy = 0.2, m.diffuse = 0.3, m.transmission = 0.4;
+    m.mirror = 0.1, m.glossy = 0.2, m.diffuse = 0.3, m.transmission = 0.4, m.emission = 25;
     m.lobe = {Lobe::Kind::blinn_phong, 12.5};
     m.fresnel = Fresnel::conductor("gold").coated(1.5);
     m.coupling = Coupling::split_sum;
@@ -127,6 +128,22 @@ TEST(SceneFile, MaterialsByNameAndLikeAnother) {
 }
 
 // A chain as long as a file can hold is followed without recursion.
+TEST(SceneFile, PresetsAreThereUnlessTheFileUsesTheirNames) {
+    const Scene preset = parse_scene(R"({"objects": [{"material": "gold"}, {"material": {"like":
+        "plastic", "diffuse": 0.5}}]})",
+                                     "s.json");
+    EXPECT_EQ(preset.objects[0].material, preset_material("gold"));
+    Material plastic = preset_material("plastic");
+    plastic.diffuse = 0.5;
+    EXPECT_EQ(preset.objects[1].material, plastic);
+    const Scene own = parse_scene(R"({"materials": {"gold": {"mirror": 0.5}},
+        "objects": [{"material": "gold"}]})",
+                                  "s.json");
+    Material half;
+    half.mirror = 0.5;
+    EXPECT_EQ(own.objects[0].material, half);
+}
+
 TEST(SceneFile, LongChainsOfMaterials) {
     std::string text = R"({"objects": [{"material": "m0"}], "materials": {)";
     const int count = 20000;
@@ -145,6 +162,8 @@ TEST(SceneFile, MistakesAreNamedWithTheirPlace) {
     const Mistake mistakes[] = {
         {"{\n  \"objects\": [{}, {\"material\":\n   {\"mirror\": 1.5}}]}",
          "s.json:3:15: objects[1].material.mirror: 1.5; expected a number from 0 to 1"},
+        {"{\"materials\": {\"lamp\": {\"emission\": -1}}}",
+         "materials.lamp.emission: -1; expected a number from 0 to 1000000000000"},
         {"{\"camra\": {}}",
          "s.json:1:2: no key is called \"camra\" here; did you mean \"camera\"?"},
         {"{\"camera\": {\"eye\": [1, 2]}}",
@@ -178,7 +197,7 @@ TEST(SceneFile, MistakesAreNamedWithTheirPlace) {
          "s.json:1:27: objects[0].material: no material is called \"glod\"; did you mean "
          "\"gold\"?"},
         {"{\"materials\": {\"gold\": {\"like\": \"b\"}}}",
-         "materials.gold.like: no material is called \"b\"; there are: gold"},
+         "materials.gold.like: no material is called \"b\"; there are: mirror, chrome"},
         {"{\"materials\": {\"a\": {\"like\": \"b\"}, \"b\": {\"like\": \"c\"},\n"
          "\"c\": {\"like\": \"b\"}}}",
          "s.json:2:15: materials.c.like: these materials are like each other in a circle: "
