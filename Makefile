@@ -2,7 +2,7 @@
 # (scripts/install-packages.sh), configures, builds and runs; none ever asks a question.
 
 .DEFAULT_GOAL := build
-.PHONY: build demo gallery test bench asan tsan fuzz format install clean help
+.PHONY: build demo gallery test bench gpu-test asan tsan fuzz format install clean help
 
 PREFIX ?= /usr/local
 INPUT ?= builtin:sunset
@@ -12,7 +12,7 @@ CONFIGURE ?=
 PROGRAM := build/release/mirrorball
 
 help:  ## list the jobs
-	@sed -n 's/^\([a-z]*\):.*## /    make \1@/p' $(MAKEFILE_LIST) | awk -F@ '{ printf "%-18s %s\n", $$1, $$2 }'
+	@sed -n 's/^\([a-z-]*\):.*## /    make \1@/p' $(MAKEFILE_LIST) | awk -F@ '{ printf "%-18s %s\n", $$1, $$2 }'
 
 build:  ## build the library, the program and the tests (Release, in build/release)
 	@scripts/install-packages.sh build test
@@ -41,6 +41,15 @@ bench:  ## build and run the benchmarks
 	@cmake --preset release $(CONFIGURE) -DMIRRORBALL_BUILD_BENCHMARKS=ON
 	@cmake --build --preset release
 	@build/release/mirrorball_benchmarks --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
+
+gpu-test:  ## run the renderer's tests and time its frames on the graphics card that EGL finds
+	@scripts/install-packages.sh build test bench
+	@cmake --preset release $(CONFIGURE) -DMIRRORBALL_BUILD_BENCHMARKS=ON
+	@cmake --build --preset release --target mirrorball_gl_tests mirrorball_render_benchmarks
+	@build/release/tests/gl/mirrorball_gl_tests
+	@build/release/mirrorball_render_benchmarks --benchmark_counters_tabular=true \
+	    --benchmark_out=build/release/frame-times.json --benchmark_out_format=json
+	@printf '\nThe same as JSON: build/release/frame-times.json\n'
 
 asan:  ## build and run the tests under the address and undefined-behaviour sanitizers
 	@scripts/install-packages.sh build test

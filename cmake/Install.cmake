@@ -9,6 +9,15 @@ install(TARGETS mirrorball EXPORT mirrorball-targets)
 install(DIRECTORY include/mirrorball DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT mirrorball-targets FILE mirrorballTargets.cmake
     NAMESPACE mirrorball:: DESTINATION ${package_folder})
+if(MIRRORBALL_BUILD_RENDERER)
+    # Components of the package, so that who wants none of them needs none of what they use.
+    foreach(component scene gl)
+        set_target_properties(mirrorball_${component} PROPERTIES EXPORT_NAME ${component})
+        install(TARGETS mirrorball_${component} EXPORT mirrorball-${component}-targets)
+        install(EXPORT mirrorball-${component}-targets FILE mirrorball-${component}Targets.cmake
+            NAMESPACE mirrorball:: DESTINATION ${package_folder})
+    endforeach()
+endif()
 
 configure_package_config_file(cmake/mirrorballConfig.cmake.in mirrorballConfig.cmake
     INSTALL_DESTINATION ${package_folder})

@@ -73,6 +73,7 @@ void Warp::operator()(const Texture& cube, const Axes& cube_axes, Shape shape, c
     check_framebuffer("warping a map");
     glViewport(0, 0, into.width, into.height);
     glDisable(GL_DEPTH_TEST);
+    if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 
     const Program& program = programs_.get("full.vert", "warp.frag",
                                            {"TARGET " + std::to_string(static_cast<int>(shape))});

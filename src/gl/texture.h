@@ -23,7 +23,8 @@ struct Texture {
     [[nodiscard]] std::uint64_t bytes() const;
 };
 
-/// \throws Error(Errc::unsupported) with both sizes if such a texture is larger than the driver takes
+/// \throws Error(Errc::unsupported) with both sizes if such a texture is larger than the driver
+/// takes
 void check_texture_size(GLenum target, int width, int height);
 
 /// Room without content, for drawing into: GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY or

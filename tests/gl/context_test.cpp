@@ -1,5 +1,6 @@
-#include <gtest/gtest.h>
+#include <iostream>
 
+#include <gtest/gtest.h>
 #include <mirrorball/gl/context.h>
 
 namespace mirrorball::gl {
@@ -10,6 +11,9 @@ TEST(Context, GivesEachOfTheThreeKinds) {
         const Context context(api);
         EXPECT_FALSE(driver().version.empty());
         EXPECT_EQ(driver().es, api == Api::es);
+        // What all these tests are run on.
+        std::cout << driver().vendor << ", " << driver().renderer << ", " << driver().version
+                  << "\n";
     }
 }
 

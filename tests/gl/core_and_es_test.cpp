@@ -29,12 +29,10 @@ TEST_F(CoreAndEs, ShowTheSame) {
     for (std::size_t i = 0; i < core.size(); ++i) {
         double largest = 0;
         for (std::size_t k = 0; k < core[i].values().size(); ++k) {
-            largest = std::max<double>(
-                largest, std::abs(core[i].values()[k] - es[i].values()[k]));
+            largest = std::max<double>(largest, std::abs(core[i].values()[k] - es[i].values()[k]));
         }
         // Both compile to the same operations, in what order is the driver's choice.
         EXPECT_LE(largest, 1.0 / 255) << name(all_methods()[i]);
-        if (getenv("VERBOSE")) printf("%s %g\n", std::string(name(all_methods()[i])).c_str(), largest);
     }
 }
 

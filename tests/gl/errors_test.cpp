@@ -67,7 +67,10 @@ TEST_F(Errors, APictureIsTooLarge) {
     expect_error(
         Errc::usage, [&] { (void)radiance(renderer, scene, 0, 2); }, HasSubstr("width"));
     expect_error(
-        Errc::usage, [&] { (void)renderer.picture(scene, {16, 16, 2000, true, {}}); },
+        Errc::usage,
+        [&] {
+            (void)renderer.picture(scene, {16, 16, 2000, true, {}});
+        },
         AllOf(HasSubstr("samples"), HasSubstr("2000")));
     // and then goes on
     EXPECT_EQ(radiance(renderer, scene, 16, 8).height(), 8);
@@ -89,7 +92,9 @@ TEST_F(Errors, AnOpenGlErrorIsAnError) {
 TEST_F(Errors, AShaderDoesNotCompile) {
     expect_error(
         Errc::unsupported,
-        [] { Program("surface.vert", "surface.frag", {"METHOD CUBE", "COUPLING oh dear"}); },
+        [] {
+            Program("surface.vert", "surface.frag", {"METHOD CUBE", "COUPLING oh dear"});
+        },
         AllOf(HasSubstr("surface.frag"), HasSubstr("COUPLING oh dear"), HasSubstr("error")));
     expect_error(
         Errc::unsupported, [] { Program("surface.vert", "no.frag"); }, HasSubstr("\"no.frag\""));

@@ -1,12 +1,12 @@
 // The fixed functions of old, glTexGen and texture matrices, against our methods that work per
 // vertex. The same textures, the same triangles, unlit, into floats.
 //
-// What differs is rounding only. Places on maps are found at the vertices to some 1e-6, and vertices
-// on the screen are rounded to 1/256 pixel or finer, each way of drawing from its own product of
-// matrices. So a picture may be moved by 1/256 pixel: a pixel may differ by 1/128 of the largest
-// step to a neighbour (one pixel of rounding up, one down), plus 1/4000 for filters. The sphere map
-// is made on the processor for one and on the graphics card for the other, rounded to half floats
-// after two filters: 1/1000 more.
+// What differs is rounding only. Places on maps are found at the vertices to some 1e-6, and
+// vertices on the screen are rounded to 1/256 pixel or finer, each way of drawing from its own
+// product of matrices. So a picture may be moved by 1/256 pixel: a pixel may differ by 1/128 of the
+// largest step to a neighbour (one pixel of rounding up, one down), plus 1/4000 for filters. The
+// sphere map is made on the processor for one and on the graphics card for the other, rounded to
+// half floats after two filters: 1/1000 more.
 #include <gtest/gtest.h>
 
 #include "gl/gl.h"
@@ -157,9 +157,9 @@ class FixedFunction : public GlTest {
                 if (differs) ++wrong;
             }
         }
-        if (getenv("VERBOSE")) printf("%s: largest %.3g wrong %d covered %d differently %d\n", what.c_str(), largest, wrong, covered, differently_covered);
         EXPECT_GT(covered, 3000) << what;
-        // A pixel's centre may lie on an edge, to rounding: of the silhouette, or between flat faces.
+        // A pixel's centre may lie on an edge, to rounding: of the silhouette, or between flat
+        // faces.
         EXPECT_LE(differently_covered, covered / 500) << what;
         EXPECT_LE(wrong, covered / 1000) << what << ": largest difference " << largest;
     }

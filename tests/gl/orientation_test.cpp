@@ -1,8 +1,8 @@
 // Which way round: a chart whose sides have colours and letters, reflected in a ball.
 //
-// The ball is at the origin and the camera on +z. What the ball's middle shows is behind the camera,
-// +z; its normal at half the way to the rim (45 degrees) reflects what is at right angles: on the
-// right +x, at the top +y. So it is in every mirror: letters are reversed.
+// The ball is at the origin and the camera on +z. What the ball's middle shows is behind the
+// camera, +z; its normal at half the way to the rim (45 degrees) reflects what is at right angles:
+// on the right +x, at the top +y. So it is in every mirror: letters are reversed.
 #include <gtest/gtest.h>
 #include <mirrorball/lookup.h>
 
@@ -31,8 +31,8 @@ class Orientation : public GlTest, public ::testing::WithParamInterface<Method> 
             {"+X", {0.68f, 0.055f, 0.035f}}, {"-X", {0.90f, 0.60f, 0.54f}},
             {"+Y", {0.085f, 0.40f, 0.055f}}, {"-Y", {0.62f, 0.82f, 0.48f}},
             {"+Z", side_colour({0, 0, 1})},  {"-Z", side_colour({0, 0, -1})}};
-        const auto found = std::min_element(
-            std::begin(sides), std::end(sides), [&](const auto& a, const auto& b) {
+        const auto found =
+            std::min_element(std::begin(sides), std::end(sides), [&](const auto& a, const auto& b) {
                 return (a.second - colour).length() < (b.second - colour).length();
             });
         return found->first;
@@ -95,7 +95,6 @@ TEST_P(Orientation, LettersAreReversedAsInAMirror) {
     // Edges of letters are blurred by a texel or two, and bent where only vertices know better.
     EXPECT_LT(error / count, 0.12);
     EXPECT_GT(error_if_turned, 3 * error);
-    if (getenv("VERBOSE")) printf("%s error %.4f turned %.4f\n", std::string(name(GetParam())).c_str(), error / count, error_if_turned / count);
 }
 
 TEST_P(Orientation, TheBackgroundIsSeenAsItIs) {
@@ -116,7 +115,6 @@ TEST_P(Orientation, TheBackgroundIsSeenAsItIs) {
     }
     EXPECT_LT(error / (width * height), 0.03);
     EXPECT_GT(error_if_turned, 4 * error);
-    if (getenv("VERBOSE")) printf("%s background error %.4f turned %.4f\n", std::string(name(GetParam())).c_str(), error / width/height, error_if_turned / width/height);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Orientation, ::testing::ValuesIn(all_methods()),

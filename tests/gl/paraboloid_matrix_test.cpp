@@ -49,8 +49,9 @@ TEST(ParaboloidMatrix, GoesOnPastTheRim) {
 }
 
 // Eq. 4 to 7 worked by hand for r = (0.48, 0.6, 0.64): S gives d_o - r = (-0.48, -0.6, -1.64), P
-// keeps it and puts its last component in place of 1, and what is divided is x = 0.48 / 1.64 = 12/41
-// and y = 0.6 / 1.64 = 15/41. T maps to s = x/2 + 1/2 = 53/82 and, as t grows down, t = 26/82.
+// keeps it and puts its last component in place of 1, and what is divided is x = 0.48 / 1.64 =
+// 12/41 and y = 0.6 / 1.64 = 15/41. T maps to s = x/2 + 1/2 = 53/82 and, as t grows down, t =
+// 26/82.
 TEST(ParaboloidMatrix, AsWorkedByHand) {
     const Vec3d r(0.48, 0.6, 0.64);
     const Imath::V4d front = times(r, paraboloid_matrix({}, true));

@@ -23,6 +23,8 @@ class PerVertex : public GlTest {
     Differences between(const std::string& mesh, const Material& material, Method a, Method b,
                         Distance to_border) {
         const auto assets = assets_in(smooth_environment());
+        // So fine that what is interpolated is nearly what a pixel would find.
+        assets->meshes[mesh] = make_mesh(mesh, 64);
         Renderer renderer(assets);
         Scene scene = scene_with(mesh, material, a);
         scene.map_size = kMapSize;
@@ -41,33 +43,34 @@ class PerVertex : public GlTest {
                 ++result.covered;
                 double error = 0;
                 for (int c = 0; c < 3; ++c)
-                    error = std::max(error, std::abs(srgb(first.rgb(x, y)[c]) -
-                                                     srgb(second.rgb(x, y)[c])));
+                    error = std::max(
+                        error, std::abs(srgb(first.rgb(x, y)[c]) - srgb(second.rgb(x, y)[c])));
                 result.largest = std::max(result.largest, error);
                 result.mean += error;
                 if (error < kRounding) continue;
                 ++result.differing;
                 // Where a triangle turns away, what it reflects is nothing like linear.
                 const Seen seen = seen_at(buffer, x, y, scene.camera.eye);
-                if (seen.n.dot(seen.v) > 0.2)
+                if (seen.n.dot(seen.v) > 0.3)
                     result.farthest = std::max(result.farthest, to_border(map.to_map(seen.r())));
             }
         }
         result.mean /= result.covered;
-        if (getenv("VERBOSE")) printf("%s %s: covered %d differing %d largest %.4f mean %.6f farthest %.3f\n", mesh.c_str(), std::string(name(b)).c_str(), result.covered, result.differing, result.largest, result.mean, result.farthest);
         return result;
     }
 
     // So coarse that what is seen is magnified: how each way finds a level does not matter.
     static constexpr int kMapSize = 8;
-    // Of filters, as in per_pixel_test.cpp.
-    static constexpr double kRounding = 1.0 / 2000;
+    // Less than a step of a screen. Where a surface turns away, a pixel sees more than a texel, and
+    // how much of the next level is mixed in is up to the driver, apart for cubes and plain
+    // textures.
+    static constexpr double kRounding = 1.0 / 255;
 };
 
 // Where r passes from one map to the other, one pass decides by r_z at the pixel and two passes by
 // the front map's disc. Both say the same of a unit r; the interpolated one is a little shorter, by
-// 1 % in a mesh's triangles as wide as 1/6 radian between reflections. In between both maps hold the
-// same light.
+// 1 % in a mesh's triangles as wide as 1/6 radian between reflections. In between both maps hold
+// the same light.
 TEST_F(PerVertex, TwoPassesShowWhatOneDoes) {
     for (const char* mesh : {"sphere", "torus"}) {
         const Differences d =
@@ -105,20 +108,20 @@ double texels_to_border(const Vec3d& r, int size) {
 }
 
 // On a piece of a polygon the plain texture of one face shows what the cube map does, except that
-// beyond the centres of the face's outermost texels it holds their values. (Interpolated, r points
-// a little elsewhere than at the pixel: some tenths of a texel.) There it may be off by what the
-// light changes in half a texel, 1/8 radian times 0.6.
+// beyond the centres of the outermost texels it holds their values: half a texel from the border, a
+// whole one where the next level is mixed in. (Interpolated, r points a little elsewhere than at
+// the pixel: some tenths of a texel.) There it may be off by what the light changes in half a
+// texel, 1/8 radian times 0.6.
 TEST_F(PerVertex, SplitPolygonsShowWhatTheCubeMapDoes) {
     Material coated = full_material();
     coated.transmission = coated.glossy = 0;
     for (const auto& [mesh, material] :
          {std::pair{"sphere", mirror_material()}, std::pair{"torus", mirror_material()},
           std::pair{"cube", mirror_material()}, std::pair{"sphere", coated}}) {
-        const Differences d =
-            between(mesh, material, Method::cube_vertex, Method::cube_split,
-                    [](const Vec3d& r) { return texels_to_border(r, kMapSize); });
+        const Differences d = between(mesh, material, Method::cube_vertex, Method::cube_split,
+                                      [](const Vec3d& r) { return texels_to_border(r, kMapSize); });
         EXPECT_GT(d.covered, 2000);
-        EXPECT_LE(d.farthest, 0.8) << mesh;
+        EXPECT_LE(d.farthest, 1.3) << mesh;
         EXPECT_LE(d.largest, 0.075) << mesh;
     }
 }
@@ -131,8 +134,7 @@ TEST_F(PerVertex, FinerMeshesComeNearerToPerPixel) {
         assets->meshes["sphere " + std::to_string(detail)] = make_mesh("sphere", detail);
     Renderer renderer(assets);
     const auto error = [&](int detail, Method per_vertex, Method per_pixel) {
-        Scene scene =
-            scene_with("sphere " + std::to_string(detail), mirror_material(), per_vertex);
+        Scene scene = scene_with("sphere " + std::to_string(detail), mirror_material(), per_vertex);
         scene.environment.background = false;
         const Image a = radiance(renderer, scene, kWidth, kHeight);
         scene.method = per_pixel;
@@ -151,7 +153,6 @@ TEST_F(PerVertex, FinerMeshesComeNearerToPerPixel) {
         const double fine = error(16, per_vertex, per_pixel);
         EXPECT_GT(coarse, 0) << name(per_vertex);
         EXPECT_LT(fine, coarse / 4) << name(per_vertex);
-        if (getenv("VERBOSE")) printf("%s coarse %f fine %f\n", std::string(name(per_vertex)).c_str(), coarse, fine);
     }
 }
 

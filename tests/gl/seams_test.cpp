@@ -21,7 +21,8 @@ TEST_P(EveryMethod, EveryPixelIsANumber) {
     Scene scene = scene_with("", full_material(), GetParam());
     // Lamps take long to compile: once is enough. One lies on a surface.
     if (GetParam() == Method::cube)
-        scene.lights = {ScenePointLight{{2, 3, 4}, {12, 10, 8}}, ScenePointLight{{0, 0, 1}, {1, 1, 1}}};
+        scene.lights = {ScenePointLight{{2, 3, 4}, {12, 10, 8}},
+                        ScenePointLight{{0, 0, 1}, {1, 1, 1}}};
     const auto check = [&](const std::string& what) {
         const Image image = radiance(renderer, scene, 96, 72);
         EXPECT_EQ(count_of_non_finite(image), 0) << what;
@@ -49,8 +50,8 @@ TEST_P(EveryMethod, EveryPixelIsANumber) {
 TEST_P(EveryMethod, BrokenMeshesShowNumbersToo) {
     const auto assets = assets_in(smooth_environment());
     Mesh& mesh = assets->meshes["broken"];
-    mesh.positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-1, -1, 0}, {1, 1, 0},
-                      {0, 0, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {-1, 0, 1}, {1, 0, 1}, {0, -1, 1}};
+    mesh.positions = {{0, 0, 0},   {0, 0, 0},  {0, 0, 0}, {-1, -1, 0}, {1, 1, 0}, {0, 0, 0},
+                      {-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {-1, 0, 1},  {1, 0, 1}, {0, -1, 1}};
     mesh.normals.assign(mesh.positions.size(), {0, 0, 1});
     for (const std::size_t i : {6, 7, 8}) mesh.normals[i] = {0, 0, 0};
     mesh.normals[9] = {0, 0, -1};  // cancels with the others somewhere on the triangle
@@ -94,7 +95,6 @@ TEST_P(EveryMethod, LightWithoutEdgesShowsNone) {
             }
         }
         most_over_direct = std::max(most_over_direct, largest / largest_direct);
-        if (getenv("VERBOSE")) printf("%s %s: %.4f direct %.4f ratio %.3f\n", mesh, std::string(name(GetParam())).c_str(), largest, largest_direct, largest/largest_direct);
     }
     switch (GetParam()) {
         case Method::cube:
@@ -114,7 +114,8 @@ TEST_P(EveryMethod, LightWithoutEdgesShowsNone) {
             EXPECT_GE(most_over_direct, 1.25) << "its seams are what it is there to show";
             break;
         default:
-            break;  // seams at a sphere map's rim, and kinks between triangles, are the method's own
+            break;  // seams at a sphere map's rim, and kinks between triangles, are the method's
+                    // own
     }
 }
 

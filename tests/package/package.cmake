@@ -1,4 +1,4 @@
-# Two tests: installs what was built into a folder of the build tree, then configures, builds and
+# Three tests: installs what was built into a folder of the build tree, then configures, builds and
 # runs the consumer beside this file against it.
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/package/prefix)
 add_test(NAME package.install
@@ -14,3 +14,7 @@ add_test(NAME package.consumer
         --test-command consumer)
 set_tests_properties(package.install PROPERTIES FIXTURES_SETUP package)
 set_tests_properties(package.consumer PROPERTIES FIXTURES_REQUIRED package)
+add_test(NAME package.picture
+    COMMAND ${CMAKE_CURRENT_BINARY_DIR}/package/build/picture
+    WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/package/build)
+set_tests_properties(package.picture PROPERTIES FIXTURES_REQUIRED package DEPENDS package.consumer)
