@@ -2,7 +2,7 @@
 # (scripts/install-packages.sh), configures, builds and runs; none ever asks a question.
 
 .DEFAULT_GOAL := build
-.PHONY: build demo test bench gpu-test asan tsan fuzz format install clean help
+.PHONY: build demo gallery test bench gpu-test asan tsan fuzz format install clean help
 
 PREFIX ?= /usr/local
 INPUT ?= builtin:sunset
@@ -26,6 +26,12 @@ demo:  ## bake the built-in sunset into ./demo and say where its page is
 	$(PROGRAM) bake $(INPUT) -o $(DEMO)
 	@printf '\nOpen this page in a browser:  %s\n' '$(abspath $(DEMO))/index.html'
 	@printf 'Bake a panorama of your own:  %s bake FILE.hdr -o DIR\n' '$(PROGRAM)'
+
+gallery:  ## make the pictures of docs/gallery again, by the commands in its README
+	@scripts/install-packages.sh build test
+	@cmake --preset release $(CONFIGURE)
+	@cmake --build --preset release --target mirrorball_program
+	@scripts/gallery.sh build/release
 
 test: build  ## build everything and run all tests
 	@ctest --preset release

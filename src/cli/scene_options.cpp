@@ -129,6 +129,17 @@ std::filesystem::path folder_of(const SceneInput& input) {
     return std::filesystem::path(input.file).parent_path();
 }
 
+// What a scene file names is beside it; what the command line names is here.
+std::string from_here(const std::string& source) {
+    if (source.starts_with("builtin:")) return source;
+    std::string result;
+    for (const std::string& file : split(source, ',')) {
+        result += result.empty() ? "" : ",";
+        result += std::filesystem::absolute(file).string();
+    }
+    return result;
+}
+
 }  // namespace
 
 void add_scene_argument(Command& command, SceneInput& input) {
@@ -139,10 +150,7 @@ void add_scene_argument(Command& command, SceneInput& input) {
 void add_scene_options(Command& command, SceneInput& input) {
     const std::vector<Option> options = {
         {"--env", "IN", "the environment: a map's file, or builtin:NAME [builtin:sunset]",
-         edit(
-             input, [](const std::string& text) { return text; },
-             [](Scene& scene, const std::string& source) { scene.environment.source = source; }),
-         input_choices()},
+         text(input.environment), input_choices()},
         {"--turn-env", "YAW,PITCH,ROLL", "degrees; positive yaw turns what is ahead to the left",
          edit(input, parse_rotation,
               [](Scene& scene, const Rotation& r) {
@@ -224,6 +232,9 @@ LoadedScene load_scene(const SceneInput& input, const Shared& shared) {
     LoadedScene loaded;
     loaded.scene = has_file ? read_scene(input.file) : Scene{};
     if (!has_file) loaded.scene.objects.push_back(only_object(input));
+    std::string& source = loaded.scene.environment.source;
+    if (!input.environment.empty())
+        source = has_file ? from_here(input.environment) : input.environment;
     for (const auto& edit : input.edits) edit(loaded.scene);
     check_map_memory(loaded.scene.map_size, shared);
     AssetOptions options;

@@ -18,6 +18,7 @@ namespace mirrorball::cli {
 struct SceneInput {
     std::string file;  ///< empty: one object
     std::vector<std::function<void(Scene&)>> edits;
+    std::string environment;  ///< empty: the file's, or the usual one
     std::string mesh, material;
     std::vector<std::function<void(Material&)>> material_edits;
     std::string camera;  ///< "YAW,PITCH[,DISTANCE]"; empty: the file's, or the usual one

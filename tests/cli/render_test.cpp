@@ -73,6 +73,21 @@ TEST(RenderVerb, DrawsASceneFileAndTakesWhatOptionsChange) {
     EXPECT_NEAR(read_image(target).rgb(32, 24).x, 2, 1e-2);
 }
 
+// What a scene file names is beside it; what the command line names is where the program runs.
+TEST(RenderVerb, FindsTheEnvironmentOfTheCommandLineFromHere) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "scenes");
+    write_contents(folder / "scenes" / "empty.json", "{}");
+    ASSERT_EQ(run({"sky", "white", "-o", (folder / "w.hdr").string(), "--size", "16"}).code, 0);
+    const std::string here =
+        std::filesystem::relative(folder / "w.hdr", std::filesystem::current_path()).string();
+    const std::string target = (folder / "p.exr").string();
+    const Outcome outcome =
+        run(render(target, {(folder / "scenes" / "empty.json").string(), "--env", here}));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NEAR(read_image(target).rgb(5, 5).x, 1, 1e-3);
+}
+
 TEST(RenderVerb, RefusesWhatCannotBeDrawn) {
     const TemporaryFolder folder;
     const std::string target = (folder / "x.png").string();

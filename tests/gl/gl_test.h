@@ -97,6 +97,7 @@ inline Material full_material() {
     Material material;
     material.mirror = 0.4, material.glossy = 0.5, material.diffuse = 0.6;
     material.transmission = 0.5;
+    material.emission = 0.25;
     material.base_color = {0.9, 0.6, 0.3};
     material.fresnel = Fresnel::dielectric(1.5);
     return material;

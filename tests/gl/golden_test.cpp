@@ -45,6 +45,7 @@ std::vector<GoldenPicture> golden_pictures() {
     rough.fresnel = Fresnel::conductor("copper");
     add("torus-copper", "torus", rough, Method::octahedral);
     Material plastic = full_material();
+    plastic.emission = 0;
     plastic.transmission = 0;
     plastic.lobe = parse_lobe("phong:60");
     Scene& room = add("sphere-plastic-in-a-room", "sphere", plastic, Method::cube);
