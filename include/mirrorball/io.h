@@ -85,6 +85,9 @@ struct WriteOptions {
     /// Losslessly, where the format can. Unset: as opens most widely, so EXR yes (every reader has
     /// ZIP), KTX2 no (many viewers have no Zstandard decoder).
     std::optional<bool> compress = {};
+    /// Of 8- and 16-bit integers. `automatic` is sRGB; `linear` is for numbers that are no light
+    /// (normals, heights), which the file then does not mark as sRGB. Floats are always linear.
+    Transfer transfer = Transfer::automatic;
     /// Into formats that hold metadata (KTX2, OpenEXR, Radiance HDR); elsewhere it is left out.
     Metadata metadata = {};
 };

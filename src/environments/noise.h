@@ -1,6 +1,6 @@
 // Gradient noise (Perlin 1985, "An Image Synthesizer"; quintic fade of Perlin 2002) with its
-// analytic gradient, and sums of its octaves. Lattice gradients come from an integer hash: no
-// tables, no seed but the one passed, the same picture everywhere.
+// analytic gradient, and sums of its octaves; on the whole plane, or on a tile. Lattice gradients
+// come from an integer hash: no tables, no seed but the one passed, the same picture everywhere.
 #pragma once
 
 #include <algorithm>
@@ -44,10 +44,9 @@ inline Vec2 lattice_gradient(std::int32_t x, std::int32_t y, std::uint32_t seed)
     return kDirections[hash(x, y, seed) >> 28];
 }
 
-}  // namespace noise_detail
-
-/// Features are about one unit wide; 0 on average.
-inline NoiseSample noise(const Vec2& p, std::uint32_t seed) {
+// gradient(ix, iy) is that of a point of the lattice.
+template <class Gradient>
+NoiseSample noise(const Vec2& p, const Gradient& gradient) {
     const double floor_x = std::floor(p.x), floor_y = std::floor(p.y);
     const auto ix = static_cast<std::int32_t>(floor_x), iy = static_cast<std::int32_t>(floor_y);
     const double x = p.x - floor_x, y = p.y - floor_y;
@@ -55,10 +54,8 @@ inline NoiseSample noise(const Vec2& p, std::uint32_t seed) {
     const double u = x * x * x * (x * (x * 6 - 15) + 10), du = 30 * x * x * (x * (x - 2) + 1);
     const double v = y * y * y * (y * (y * 6 - 15) + 10), dv = 30 * y * y * (y * (y - 2) + 1);
 
-    const Vec2 g00 = noise_detail::lattice_gradient(ix, iy, seed);
-    const Vec2 g10 = noise_detail::lattice_gradient(ix + 1, iy, seed);
-    const Vec2 g01 = noise_detail::lattice_gradient(ix, iy + 1, seed);
-    const Vec2 g11 = noise_detail::lattice_gradient(ix + 1, iy + 1, seed);
+    const Vec2 g00 = gradient(ix, iy), g10 = gradient(ix + 1, iy);
+    const Vec2 g01 = gradient(ix, iy + 1), g11 = gradient(ix + 1, iy + 1);
     const double a = g00.x * x + g00.y * y;
     const double b = g10.x * (x - 1) + g10.y * y;
     const double c = g01.x * x + g01.y * (y - 1);
@@ -73,6 +70,31 @@ inline NoiseSample noise(const Vec2& p, std::uint32_t seed) {
     return {kScale * (a + u * (b - a) + v * (c - a) + u * v * k),
             kScale * (blend(g00.x, g10.x, g01.x, g11.x) + du * (b - a + v * k)),
             kScale * (blend(g00.y, g10.y, g01.y, g11.y) + dv * (c - a + u * k))};
+}
+
+}  // namespace noise_detail
+
+/// Features are about one unit wide; 0 on average.
+inline NoiseSample noise(const Vec2& p, std::uint32_t seed) {
+    return noise_detail::noise(p, [seed](std::int32_t x, std::int32_t y) {
+        return noise_detail::lattice_gradient(x, y, seed);
+    });
+}
+
+/// The same, repeating after so many units each way. \pre both at least 1
+inline NoiseSample tiling_noise(const Vec2& p, std::int32_t period_x, std::int32_t period_y,
+                                std::uint32_t seed) {
+    const auto within = [](std::int32_t i, std::int32_t period) {
+        return (i % period + period) % period;
+    };
+    return noise_detail::noise(p, [=](std::int32_t x, std::int32_t y) {
+        return noise_detail::lattice_gradient(within(x, period_x), within(y, period_y), seed);
+    });
+}
+
+/// A number from 0 to 1 for a point of a lattice.
+inline double lattice_number(std::int32_t x, std::int32_t y, std::uint32_t seed) {
+    return noise_detail::hash(x, y, seed) / 4294967296.0;
 }
 
 /// Octaves of noise, each of half the size of the one before and `gain` times as strong. Octaves

@@ -189,19 +189,20 @@ class PngWriter {
     PngWriter& operator=(const PngWriter&) = delete;
 
     template <class T>
-    void write(const Image& image, bool compress) {
+    void write(const Image& image, const WriteOptions& options) {
         constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
                                         PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
         call([&] {
             png_set_IHDR(png_, info_, image.width(), image.height(), 8 * sizeof(T),
                          kColourTypes[image.channels() - 1], PNG_INTERLACE_NONE,
                          PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-            png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_RELATIVE);
-            if (!compress) png_set_compression_level(png_, 0);
+            if (options.transfer != Transfer::linear)
+                png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_RELATIVE);
+            if (!options.compress.value_or(true)) png_set_compression_level(png_, 0);
             png_write_info(png_, info_);
             if (sizeof(T) == 2) png_set_swap(png_);
         });
-        encode_rows<T>(image, [&](std::span<T> codes) {
+        encode_rows<T>(image, options.transfer, [&](std::span<T> codes) {
             auto* row = reinterpret_cast<png_bytep>(codes.data());
             call([&] { png_write_row(png_, row); });
         });
@@ -236,9 +237,9 @@ void write(OutputFile& file, const ContentsView& contents, const WriteOptions& o
     const Image& image = contents.levels.front().front();
     PngWriter writer(file);
     if (options.format == TexelFormat::unorm16)
-        writer.write<std::uint16_t>(image, options.compress.value_or(true));
+        writer.write<std::uint16_t>(image, options);
     else
-        writer.write<std::uint8_t>(image, options.compress.value_or(true));
+        writer.write<std::uint8_t>(image, options);
 }
 
 }  // namespace

@@ -361,13 +361,14 @@ class TiffReader {
 
 class TiffWriter {
   public:
-    TiffWriter(OutputFile& file, const Image& image, TexelFormat format, bool compress)
+    TiffWriter(OutputFile& file, const Image& image, const WriteOptions& options)
         : handle_{nullptr, &file, 0, nullptr, {}},
           image_(image),
-          format_(format),
+          format_(options.format),
+          transfer_(options.transfer),
           tiff_(open_tiff(handle_, file.name(), needs_64_bits() ? "w8" : "w")) {
         if (tiff_ == nullptr) handle_.fail("cannot be written");
-        set_fields(compress);
+        set_fields(options.compress.value_or(true));
     }
 
     void write() {
@@ -438,7 +439,7 @@ class TiffWriter {
 
     template <class T>
     void write_integers() {
-        encode_rows<T>(image_, [&](std::span<T> codes) { write_row(codes.data()); });
+        encode_rows<T>(image_, transfer_, [&](std::span<T> codes) { write_row(codes.data()); });
     }
 
     template <class T, class Encode>
@@ -453,6 +454,7 @@ class TiffWriter {
     Handle handle_;
     const Image& image_;
     TexelFormat format_;
+    Transfer transfer_;
     TiffPointer tiff_;
     std::uint32_t next_row_ = 0;
 };
@@ -469,9 +471,7 @@ FileContents read(InputFile& file, const ReadOptions& options) {
 }
 
 void write(OutputFile& file, const ContentsView& contents, const WriteOptions& options) {
-    TiffWriter(file, contents.levels.front().front(), options.format,
-               options.compress.value_or(true))
-        .write();
+    TiffWriter(file, contents.levels.front().front(), options).write();
 }
 
 }  // namespace

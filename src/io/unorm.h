@@ -45,14 +45,15 @@ class UnormDecoder {
     std::vector<float> linear_, colour_;
 };
 
-/// Values within [0, 1], rounded to the nearest code after sRGB's curve. \pre as many codes as
-/// values
+/// Values within [0, 1], rounded to the nearest code, after sRGB's curve unless `transfer` is
+/// linear. \pre as many codes as values
 template <class T>
-void encode_srgb(std::span<const float> values, int channels, std::span<T> codes) {
+void encode(std::span<const float> values, int channels, Transfer transfer, std::span<T> codes) {
     const int alpha = has_alpha(channels) ? channels - 1 : channels;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const bool is_alpha = static_cast<int>(i % channels) == alpha;
-        const double encoded = is_alpha ? values[i] : linear_to_srgb(values[i]);
+        const bool is_linear =
+            transfer == Transfer::linear || static_cast<int>(i % channels) == alpha;
+        const double encoded = is_linear ? values[i] : linear_to_srgb(values[i]);
         codes[i] = static_cast<T>(encoded * std::numeric_limits<T>::max() + 0.5);
     }
 }
@@ -60,15 +61,15 @@ void encode_srgb(std::span<const float> values, int channels, std::span<T> codes
 /// Gives each row's codes, from the top, to row(codes). The curve takes longer than most encoders
 /// do, so a band of rows is computed by all threads at a time.
 template <class T, class F>
-void encode_rows(const Image& image, const F& row) {
+void encode_rows(const Image& image, Transfer transfer, const F& row) {
     constexpr int kBand = 64;
     const std::size_t row_size = image.row(0).size();
     std::vector<T> codes(kBand * row_size);
     for (int begin = 0; begin < image.height(); begin += kBand) {
         const int count = std::min(kBand, image.height() - begin);
         parallel_for(count, [&](std::int64_t i) {
-            encode_srgb<T>(image.row(begin + static_cast<int>(i)), image.channels(),
-                           std::span(codes).subspan(i * row_size, row_size));
+            encode<T>(image.row(begin + static_cast<int>(i)), image.channels(), transfer,
+                      std::span(codes).subspan(i * row_size, row_size));
         });
         for (int i = 0; i < count; ++i) row(std::span(codes).subspan(i * row_size, row_size));
     }
