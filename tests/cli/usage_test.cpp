@@ -33,7 +33,7 @@ TEST_F(Usage, HelpAndVersionGoToStdout) {
     EXPECT_NE(run({"--help"}).out.find("bake"), std::string::npos);
     EXPECT_EQ(run({"--version"}).out.compare(0, 11, "mirrorball "), 0);
     for (const char* verb : {"info", "convert", "prefilter", "irradiance-sh", "bake", "compare",
-                             "sky", "brdf", "fresnel", "view-stack", "completion"}) {
+                             "sky", "bump", "brdf", "fresnel", "view-stack", "completion"}) {
         const Outcome help = run({verb, "--help"});
         EXPECT_EQ(help.code, 0) << verb;
         EXPECT_NE(help.out.find("example"), std::string::npos) << verb;
