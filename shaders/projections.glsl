@@ -35,10 +35,22 @@ vec2 equirect_st(vec3 d) {
     return vec2(0.5 + atan(d.x, -d.z) / (2.0 * kPi), acos(clamp(d.y / length(d), -1.0, 1.0)) / kPi);
 }
 
+vec3 equirect_direction(vec2 st) {
+    float around = 2.0 * kPi * (st.x - 0.5), down = kPi * st.y;
+    return vec3(sin(around) * sin(down), cos(down), -cos(around) * sin(down));
+}
+
 vec2 octahedral_st(vec3 d) {
     vec3 p = d / (abs(d.x) + abs(d.y) + abs(d.z));
     vec2 side = vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
     return from_disc(p.z >= 0.0 ? p.xy : (1.0 - abs(p.yx)) * side);
+}
+
+vec3 octahedral_direction(vec2 st) {
+    vec2 p = to_disc(st);
+    float z = 1.0 - abs(p.x) - abs(p.y);
+    vec2 side = vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+    return vec3(z >= 0.0 ? p : (1.0 - abs(p.yx)) * side, z);
 }
 
 // The direction of a place on a face of a cube; a and b from -1 to 1, b down.

@@ -1,7 +1,7 @@
 // What a surface sends to the eye: the equations at Material in include/mirrorball/scene.h.
 //
 // Defined by the renderer: METHOD; HAS_MIRROR, HAS_GLOSSY, HAS_DIFFUSE, HAS_TRANSMISSION,
-// HAS_EMISSION; COUPLING; PROXY; DISPLAY (else radiance is written as it is).
+// HAS_EMISSION; COUPLING; PROXY; DISPLAY, HALF_FLOATS or RADIANCE: how it is written.
 #include "methods.glsl"
 #include "normal.glsl"
 
@@ -21,6 +21,7 @@ uniform float u_glossy_level;  // of the glossy map that the material's lobe is 
 #include "proxy.glsl"
 #include "material.glsl"
 #include "point_lights.glsl"
+#include "held.glsl"
 #include "tone_map.glsl"
 
 void main() {
@@ -67,6 +68,8 @@ void main() {
 #endif
 #ifdef DISPLAY
     o_color = vec4(tone_mapped(radiance), 1.0);
+#elif defined(HALF_FLOATS)
+    o_color = vec4(held(radiance), 1.0);
 #else
     o_color = vec4(radiance, 1.0);
 #endif

@@ -3,6 +3,12 @@
 #include "normal.glsl"
 #include "projections.glsl"
 
+#ifdef SIX_VIEWS  // surface.geom comes in between
+#define v_position g_position
+#define v_normal g_normal
+#define v_texture_coordinate g_texture_coordinate
+#endif
+
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec2 a_texture_coordinate;
@@ -40,7 +46,11 @@ void main() {
     v_position = world.xyz;
     v_normal = u_normal_to_world * a_normal;
     v_texture_coordinate = a_texture_coordinate;
+#ifdef SIX_VIEWS
+    gl_Position = world;
+#else
     gl_Position = u_to_clip * world;
+#endif
 #if PER_VERTEX
     vec3 n = unit_normal(v_normal), v = normalize(u_eye - v_position);
     vec3 r = 2.0 * dot(n, v) * n - v;

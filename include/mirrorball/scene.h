@@ -71,11 +71,26 @@ struct Transform {
 /// in their order are those of OpenGL's matrix for columns.
 [[nodiscard]] Imath::M44d matrix(const Transform& transform);
 
-/// A map of what is around an object, made anew for every picture from where the object is.
+/// How the faces of a cube map are drawn; what comes out is the same.
+enum class FaceDrawing {
+    texture,  ///< each as what is drawn into: six passes
+    copy,     ///< each drawn as a picture and copied into the map: the survey's glCopyTexSubImage2D
+    one_pass,  ///< all six at once, by a geometry shader: desktop OpenGL only; always all faces
+};
+/// "texture", "copy", "one-pass"
+[[nodiscard]] std::string_view name(FaceDrawing drawing);
+/// \throws Error(Errc::usage) naming those there are
+[[nodiscard]] FaceDrawing parse_face_drawing(std::string_view name);
+
+/// A map of what is around an object, made anew for every picture from the middle of the object's
+/// bounds, without the object itself.
 struct DynamicReflection {
     int size = 256;           ///< edge of a face in texels, 16 to 4096
-    int faces_per_frame = 6;  ///< 1 to 6: how many are drawn anew for each picture
-    int bounces = 1;          ///< 1 to 8: how often light goes to and fro between such objects
+    int faces_per_frame = 6;  ///< 1 to 6: how many are drawn anew for each picture but the first
+    /// 1 to 8: how often light goes to and fro between such objects. At 1 the others are seen in
+    /// the map as they reflect the environment alone; at n as they reflect maps of n - 1 bounces.
+    int bounces = 1;
+    FaceDrawing drawing = FaceDrawing::texture;
 
     bool operator==(const DynamicReflection&) const = default;
 };

@@ -27,7 +27,8 @@ void attach_indices(const Buffer& buffer, const std::vector<std::uint32_t>& indi
 }  // namespace
 
 MeshBuffers::MeshBuffers(const Mesh& mesh)
-    : index_count_(static_cast<GLsizei>(mesh.indices.size())) {
+    : index_count_(static_cast<GLsizei>(mesh.indices.size())),
+      bounds_(mirrorball::bounds(mesh)) {
     glBindVertexArray(array_.name());
     attach(buffers_[0], kPosition, mesh.positions);
     attach(buffers_[1], kNormal, mesh.normals);

@@ -13,11 +13,14 @@ class MeshBuffers {
   public:
     explicit MeshBuffers(const Mesh& mesh);
     void draw() const;
+    /// Of the mesh, in its own frame.
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
 
   private:
     VertexArray array_;
     std::array<Buffer, 4> buffers_;  // positions, normals, texture coordinates, indices
     GLsizei index_count_;
+    Bounds bounds_;
 };
 
 /// The same for polygons split by cube face, which change with the eye.

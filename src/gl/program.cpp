@@ -1,5 +1,6 @@
 #include "program.h"
 
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -87,11 +88,15 @@ std::string shader_source(std::string_view file, const Definitions& definitions)
 }
 
 Program::Program(std::string_view vertex_file, std::string_view fragment_file,
-                 const Definitions& definitions) {
+                 const Definitions& definitions, std::string_view geometry_file) {
     const Shader vertex(GL_VERTEX_SHADER, vertex_file, definitions);
     const Shader fragment(GL_FRAGMENT_SHADER, fragment_file, definitions);
+    std::optional<Shader> geometry;
+    if (!geometry_file.empty())
+        geometry.emplace(GLenum{GL_GEOMETRY_SHADER}, geometry_file, definitions);
     name_ = glCreateProgram();
     glAttachShader(name_, vertex.name());
+    if (geometry) glAttachShader(name_, geometry->name());
     glAttachShader(name_, fragment.name());
     glLinkProgram(name_);
     GLint linked = GL_FALSE;
@@ -150,13 +155,31 @@ void Program::set(const char* name, std::span<const Vec3f> values) const {
     glUniform3fv(location(name), static_cast<GLsizei>(values.size()), values.front().getValue());
 }
 
+void Program::set(const char* name, std::span<const Imath::V4f> values) const {
+    if (values.empty()) return;
+    glUniform4fv(location(name), static_cast<GLsizei>(values.size()), &values.front().x);
+}
+
+void Program::set(const char* name, std::span<const Imath::M33f> values) const {
+    if (values.empty()) return;
+    glUniformMatrix3fv(location(name), static_cast<GLsizei>(values.size()), GL_FALSE,
+                       &values.front().x[0][0]);
+}
+
+void Program::set(const char* name, std::span<const Imath::M44f> values) const {
+    if (values.empty()) return;
+    glUniformMatrix4fv(location(name), static_cast<GLsizei>(values.size()), GL_FALSE,
+                       &values.front().x[0][0]);
+}
+
 const Program& ProgramCache::get(std::string_view vertex_file, std::string_view fragment_file,
-                                 const Definitions& definitions) {
-    const std::string key =
-        fmt::format("{} {} {}", vertex_file, fragment_file, fmt::join(definitions, ";"));
+                                 const Definitions& definitions, std::string_view geometry_file) {
+    const std::string key = fmt::format("{} {} {} {}", vertex_file, geometry_file, fragment_file,
+                                        fmt::join(definitions, ";"));
     const auto found = programs_.find(key);
     if (found != programs_.end()) return found->second;
-    return programs_.emplace(key, Program(vertex_file, fragment_file, definitions)).first->second;
+    return programs_.emplace(key, Program(vertex_file, fragment_file, definitions, geometry_file))
+        .first->second;
 }
 
 }  // namespace mirrorball::gl

@@ -1,4 +1,4 @@
-// Programs: a vertex and a fragment shader out of shaders/, specialised by definitions.
+// Programs: shaders out of shaders/, specialised by definitions.
 #pragma once
 
 #include <map>
@@ -24,9 +24,10 @@ using Definitions = std::vector<std::string>;
 
 class Program {
   public:
+    /// With a geometry shader in between if its file is named: desktop OpenGL only.
     /// \throws Error(Errc::unsupported) with the driver's log
     Program(std::string_view vertex_file, std::string_view fragment_file,
-            const Definitions& definitions = {});
+            const Definitions& definitions = {}, std::string_view geometry_file = {});
     ~Program();
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
@@ -42,6 +43,9 @@ class Program {
     void set(const char* name, const Imath::M33f& value) const;
     void set(const char* name, const Imath::M44f& value) const;
     void set(const char* name, std::span<const Vec3f> values) const;
+    void set(const char* name, std::span<const Imath::V4f> values) const;
+    void set(const char* name, std::span<const Imath::M33f> values) const;
+    void set(const char* name, std::span<const Imath::M44f> values) const;
 
   private:
     [[nodiscard]] GLint location(const char* name) const;
@@ -54,7 +58,7 @@ class Program {
 class ProgramCache {
   public:
     const Program& get(std::string_view vertex_file, std::string_view fragment_file,
-                       const Definitions& definitions = {});
+                       const Definitions& definitions = {}, std::string_view geometry_file = {});
 
   private:
     std::map<std::string, Program> programs_;

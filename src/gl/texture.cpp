@@ -105,12 +105,17 @@ void Texture::bind(int unit) const {
 }
 
 std::uint64_t Texture::bytes() const {
+    if (empty()) return 0;
     std::uint64_t texels = 0;
     for (int level = 0; level < level_count; ++level) {
         texels += static_cast<std::uint64_t>(std::max(1, width >> level)) *
                   static_cast<std::uint64_t>(std::max(1, height >> level));
     }
     return texels * static_cast<std::uint64_t>(layer_count) * 8;
+}
+
+void make_cubes_seamless() {
+    if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 
 GLenum target_for(Projection projection) {

@@ -18,6 +18,8 @@ struct Texture {
     int width = 0, height = 0, level_count = 1;
     int layer_count = 1;  ///< six of a cube
 
+    /// Is it a name only?
+    [[nodiscard]] bool empty() const { return width == 0; }
     void bind(int unit) const;
     /// Of all levels; 8 a texel.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -26,6 +28,10 @@ struct Texture {
 /// \throws Error(Errc::unsupported) with both sizes if such a texture is larger than the driver
 /// takes
 void check_texture_size(GLenum target, int width, int height);
+
+/// Lets lookups in cube maps filter across their edges: OpenGL ES always does, desktop OpenGL when it
+/// is told.
+void make_cubes_seamless();
 
 /// Room without content, for drawing into: GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY or
 /// GL_TEXTURE_CUBE_MAP. Filtered linearly, between levels too; held at its edges.

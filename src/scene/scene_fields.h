@@ -49,6 +49,7 @@ void visit_dynamic(V& v, D& d) {
     v.whole("size", d.size, 16, 4096);
     v.whole("faces_per_frame", d.faces_per_frame, 1, 6);
     v.whole("bounces", d.bounces, 1, 8);
+    v.spelled("drawing", d.drawing, parse_face_drawing, [](FaceDrawing f) { return name(f); });
 }
 
 template <class V, class B>

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <mirrorball/direct.h>
+#include <mirrorball/environment_map.h>
 #include <mirrorball/image.h>
 #include <mirrorball/progress.h>
 #include <mirrorball/scene.h>
@@ -24,6 +25,13 @@ struct PictureOptions {
     /// Tone mapped, linear light from 0 to 1, or else radiance.
     bool display = true;
     Progress progress = {};
+};
+
+/// Which faces of a dynamic object's map were drawn for a picture.
+struct FaceUpdate {
+    std::size_t object = 0;  ///< its place in the scene
+    std::vector<int> faces;  ///< in the order in which they were drawn
+    int bounce_count = 1;    ///< how often each
 };
 
 /// Draws scenes whose meshes, pictures and environment are those given. What it makes of them (maps
@@ -48,6 +56,15 @@ class Renderer {
     /// What the pixels see, at their centres moved by `shift` pixels. For direct.h.
     [[nodiscard]] SurfaceBuffer surfaces(const Scene& scene, int width, int height,
                                          const Imath::V2d& shift = {0, 0});
+
+    /// What there is to see from a place, with all objects and the environment: a local map. Its
+    /// own place as captured_at and a proxy for what is around make it the environment of a scene.
+    /// Cube faces of 32-bit floats in the projection's default axes; nothing nearer than a
+    /// millimetre is seen. \throws Error(Errc::usage) unless 1 <= size <= 16384
+    [[nodiscard]] EnvironmentMap capture(const Scene& scene, const Vec3d& position, int size);
+
+    /// What the last picture drew anew of the maps of dynamic objects.
+    [[nodiscard]] const std::vector<FaceUpdate>& face_updates() const;
 
     /// Seconds that each of `count` pictures of one sample takes, from the first call to OpenGL
     /// until it has drawn all; what is made for the scene once is made before.

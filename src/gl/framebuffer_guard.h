@@ -1,0 +1,25 @@
+// What is made in between leaves the framebuffer that the caller draws into as it was.
+#pragma once
+
+#include "gl.h"
+
+namespace mirrorball::gl {
+
+class FramebufferGuard {
+  public:
+    FramebufferGuard() {
+        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawn_into_);
+        glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_from_);
+    }
+    ~FramebufferGuard() {
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawn_into_));
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_from_));
+    }
+    FramebufferGuard(const FramebufferGuard&) = delete;
+    FramebufferGuard& operator=(const FramebufferGuard&) = delete;
+
+  private:
+    GLint drawn_into_ = 0, read_from_ = 0;
+};
+
+}  // namespace mirrorball::gl

@@ -1,0 +1,122 @@
+#include "method_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <mirrorball/projections/cube.h>
+
+namespace mirrorball::gl {
+namespace {
+
+// A method's textures: what kind, how many layers, and how large next to a cube's face, so that
+// there are as many texels to a degree.
+struct Form {
+    GLenum target;
+    int layer_count, widths, heights;
+    Warp::Shape first_shape;
+};
+
+Form form_of(Method method) {
+    switch (projection_of(method)) {
+        case Projection::sphere:
+            return {GL_TEXTURE_2D, 1, 2, 2, Warp::Shape::sphere};
+        case Projection::dual_paraboloid:
+            return {GL_TEXTURE_2D_ARRAY, 2, 2, 2, Warp::Shape::front_paraboloid};
+        case Projection::equirect:
+            return {GL_TEXTURE_2D, 1, 4, 2, Warp::Shape::equirect};
+        case Projection::octahedral:
+            return {GL_TEXTURE_2D, 1, 2, 2, Warp::Shape::octahedral};
+        default:
+            return {GL_TEXTURE_2D_ARRAY, Cube::face_count, 1, 1, Warp::Shape::face};
+    }
+}
+
+int level_count_for(const Texture& cube, int width, int height) {
+    return cube.level_count == 1 ? 1 : 1 + static_cast<int>(std::log2(std::max(width, height)));
+}
+
+// Nothing for what is not there.
+Texture room(const Form& form, const Texture& cube) {
+    if (cube.empty()) return {};
+    const int width = form.widths * cube.width, height = form.heights * cube.width;
+    Texture texture = make_texture(form.target, width, height, level_count_for(cube, width, height),
+                                   form.layer_count);
+    if (form.first_shape == Warp::Shape::equirect)
+        glTexParameteri(form.target, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    return texture;
+}
+
+std::vector<Texture> faces_room(const Texture& cube) {
+    std::vector<Texture> faces;
+    if (cube.empty()) return faces;
+    for (int i = 0; i < Cube::face_count; ++i)
+        faces.push_back(make_texture(GL_TEXTURE_2D, cube.width, cube.width, cube.level_count));
+    return faces;
+}
+
+void make_levels(const Texture& texture) {
+    if (texture.level_count == 1) return;
+    texture.bind(0);
+    glGenerateMipmap(texture.target);
+}
+
+}  // namespace
+
+bool MethodMaps::needed_for(Method method) {
+    return method != Method::cube && method != Method::cube_vertex;
+}
+
+MethodMaps::MethodMaps(Method method, const MapTextures& cubes)
+    : method_(method),
+      axes_(default_axes(projection_of(method))) {
+    if (method == Method::cube_split) {
+        textures_.mirror_faces = faces_room(cubes.mirror);
+        for (const Texture& cube : cubes.glossy) textures_.glossy_faces.push_back(faces_room(cube));
+        return;  // what is looked up by the normal stays a cube
+    }
+    const Form form = form_of(method);
+    textures_.mirror = room(form, cubes.mirror);
+    for (const Texture& cube : cubes.glossy) textures_.glossy.push_back(room(form, cube));
+    textures_.diffuse = room(form, cubes.diffuse);
+}
+
+void MethodMaps::make(const Texture& cube, const Axes& cube_axes, const Axes& made_for,
+                      const Texture& into) {
+    if (into.empty()) return;
+    const Form form = form_of(method_);
+    for (int layer = 0; layer < form.layer_count; ++layer) {
+        const bool back = form.first_shape == Warp::Shape::front_paraboloid && layer == 1;
+        warp_(cube, cube_axes, back ? Warp::Shape::back_paraboloid : form.first_shape, made_for,
+              into, layer, layer);
+    }
+    make_levels(into);
+}
+
+void MethodMaps::make_faces(const Texture& cube, const Axes& cube_axes,
+                            const std::vector<Texture>& into) {
+    for (std::size_t face = 0; face < into.size(); ++face) {
+        warp_(cube, cube_axes, Warp::Shape::face, axes_, into[face], 0, static_cast<int>(face));
+        make_levels(into[face]);
+    }
+}
+
+void MethodMaps::make(const MapTextures& cubes, const Axes& cube_axes, const Axes& camera) {
+    if (method_ == Method::cube_split) {
+        make_faces(cubes.mirror, cube_axes, textures_.mirror_faces);
+        for (std::size_t i = 0; i < cubes.glossy.size(); ++i)
+            make_faces(cubes.glossy[i], cube_axes, textures_.glossy_faces[i]);
+        return;
+    }
+    Axes made_for = axes_;
+    if (projection_of(method_) == Projection::sphere) {
+        // GL_SPHERE_MAP works in the eye's frame whatever the map was made for.
+        axes_ = camera;
+        made_for = method_ == Method::sphere_stale ? Axes{} : camera;
+    }
+    make(cubes.mirror, cube_axes, made_for, textures_.mirror);
+    for (std::size_t i = 0; i < cubes.glossy.size(); ++i)
+        make(cubes.glossy[i], cube_axes, made_for, textures_.glossy[i]);
+    make(cubes.diffuse, cube_axes, made_for, textures_.diffuse);
+}
+
+}  // namespace mirrorball::gl

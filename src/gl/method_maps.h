@@ -1,0 +1,35 @@
+// MethodMaps: cube maps on the graphics card made into the maps of another method.
+#pragma once
+
+#include "map_textures.h"
+#include "warp.h"
+
+namespace mirrorball::gl {
+
+class MethodMaps {
+  public:
+    /// Room for maps as fine as the cubes. \pre the method is not one that looks up cubes
+    MethodMaps(Method method, const MapTextures& cubes);
+
+    /// Is there anything to make, or are cube maps what the method looks up?
+    [[nodiscard]] static bool needed_for(Method method);
+
+    /// `camera` matters for sphere maps: they are made for it, and looked up in its frame.
+    void make(const MapTextures& cubes, const Axes& cube_axes, const Axes& camera);
+
+    [[nodiscard]] const MapTextures& textures() const { return textures_; }
+    /// Of the lookup.
+    [[nodiscard]] const Axes& axes() const { return axes_; }
+
+  private:
+    void make(const Texture& cube, const Axes& cube_axes, const Axes& made_for,
+              const Texture& into);
+    void make_faces(const Texture& cube, const Axes& cube_axes, const std::vector<Texture>& into);
+
+    Method method_;
+    Axes axes_;
+    MapTextures textures_;
+    Warp warp_;
+};
+
+}  // namespace mirrorball::gl
