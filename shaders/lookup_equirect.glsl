@@ -3,9 +3,11 @@
 
 #define MAP sampler2D
 
+// Of a texel on the horizon. Near the poles texels are narrower, but what is in them is no finer than
+// elsewhere on the sphere.
 float texel_solid_angle(MAP map, vec3 d) {
-    vec2 size = vec2(textureSize(map, 0));
-    return 2.0 * kPi * kPi * max(length(d.xz) / length(d), 1e-4) / (size.x * size.y);
+    float angle = kPi / float(textureSize(map, 0).y);
+    return angle * angle;
 }
 
 vec3 look_up_level(MAP map, vec2 st, int level) {

@@ -5,11 +5,7 @@
 #define MAP sampler2DArray
 
 float texel_solid_angle(MAP map, vec3 d) {
-    vec3 a = abs(d);
-    float major = max(a.x, max(a.y, a.z));
-    float size = float(textureSize(map, 0).x);
-    float cosine = major / length(d);
-    return 4.0 * cosine * cosine * cosine / (size * size);
+    return cube_texel_solid_angle(d, float(textureSize(map, 0).x));
 }
 
 // Eq. 3 and Table 1.

@@ -53,6 +53,13 @@ vec3 octahedral_direction(vec2 st) {
     return vec3(z >= 0.0 ? p : (1.0 - abs(p.yx)) * side, z);
 }
 
+// Solid angle of a texel about d of a cube whose faces have `size` texels a side.
+float cube_texel_solid_angle(vec3 d, float size) {
+    vec3 a = abs(d);
+    float cosine = max(a.x, max(a.y, a.z)) / length(d);
+    return 4.0 * cosine * cosine * cosine / (size * size);
+}
+
 // The direction of a place on a face of a cube; a and b from -1 to 1, b down.
 vec3 cube_direction(int face, float a, float b) {
     if (face == 0) return vec3(1.0, -b, -a);

@@ -221,7 +221,7 @@ std::string draw(DualParaboloid, const ProjectionFacts& facts) {
     s.svg.text(s.at(0.04, -0.03), "focus", 17, ink::kText);
     s.svg.text(s.at(2.9, 1.1), "front map", 18, ink::kText, Anchor::middle);
     s.svg.text(s.at(-2.9, 1.1), "back map", 18, ink::kText, Anchor::middle);
-    s.wheel({300, 622}, 36, 12);
+    s.wheel({900, 622}, 36, 12);
     s.foot(facts);
     return s.svg.str();
 }

@@ -4,7 +4,7 @@ namespace mirrorball::gl {
 
 Imath::M33f to_map_matrix(const Axes& axes) {
     const auto& [x, y, z] = axes;
-    return Imath::M33f(x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z);
+    return Imath::M33f(Imath::M33d(x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z));
 }
 
 std::uint64_t MapTextures::bytes() const {

@@ -6,8 +6,11 @@
 namespace mirrorball::gl {
 namespace {
 
-bool is_sphere(Method method) {
-    return projection_of(method) == Projection::sphere;
+// Maps with rims are cut out of cubes on the graphics card: sphere maps for each camera anew, and
+// paraboloids because what goes on beyond their rims is then there to be filtered with.
+bool is_warped(Method method) {
+    const Projection projection = projection_of(method);
+    return projection == Projection::sphere || projection == Projection::dual_paraboloid;
 }
 
 // The edge (of an equirect the width) of a map that is as fine as a cube whose faces have `size`.
@@ -37,19 +40,21 @@ SceneMaps::SceneMaps(const EnvironmentMap& environment, Method method, int size,
                      std::span<const Lobe> lobes)
     : method_(method),
       lobes_(lobes.begin(), lobes.end()) {
-    // Sphere maps are made from the six faces, for each camera anew.
-    const Projection projection = is_sphere(method) ? Projection::cube : projection_of(method);
+    const Projection projection = is_warped(method) ? Projection::cube : projection_of(method);
     axes_ = default_axes(projection);
     const int map_size = size_as_fine(environment, projection, size);
     // Before it takes time and memory.
     check_texture_size(target_for(projection), map_size, 1);
-    maps_ = upload_all(make_reflection_maps(environment, lobes, projection, map_size, axes_),
-                       method);
-    if (is_sphere(method)) warped_.emplace(method, maps_);
+    maps_ =
+        upload_all(make_reflection_maps(environment, lobes, projection, map_size, axes_), method);
+    if (is_warped(method)) warped_.emplace(method, maps_);
 }
 
 void SceneMaps::look_from(const Axes& camera) {
-    if (warped_) warped_->make(maps_, axes_, camera);
+    const bool for_camera = projection_of(method_) == Projection::sphere;
+    if (!warped_ || (made_for_ && (!for_camera || *made_for_ == camera))) return;
+    warped_->make(maps_, axes_, camera);
+    made_for_ = camera;
 }
 
 LookupMaps SceneMaps::lookup(const Material& material, const SceneEnvironment& environment) const {

@@ -35,7 +35,8 @@ class SceneMaps {
     std::vector<Lobe> lobes_;
     Axes axes_;  // of maps_
     MapTextures maps_;
-    std::optional<MethodMaps> warped_;  // where maps are re-made for the camera
+    std::optional<MethodMaps> warped_;  // of maps with rims
+    std::optional<Axes> made_for_;      // the camera that those were last made for
 };
 
 }  // namespace mirrorball::gl

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <mirrorball/error.h>
-#include <mirrorball/lookup.h>
 
 #include "check.h"
 
@@ -67,30 +66,13 @@ void fill(const Texture& texture, int level, int layer, const Image& image) {
     }
 }
 
-// A face of a paraboloid map with what lies beyond its rim.
-Image filled_beyond_rim(const EnvironmentMap& map, int level, int face) {
-    Image image = map.levels[level].faces[face];
-    const int size = image.width();
-    for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
-            const FacePoint<double> place{face, (x + 0.5) / size, (y + 0.5) / size};
-            if (DualParaboloid::covers(place)) continue;
-            const Vec3d direction = map.axes.to_world(DualParaboloid::direction(place));
-            image.set_rgb(x, y, look_up(map, direction, level));
-        }
-    }
-    return image;
-}
-
 Texture upload_as(GLenum target, const EnvironmentMap& map) {
     const int face_count = mirrorball::face_count(map.projection);
     Texture texture =
         make_texture(target, map.width(), map.height(), map.level_count(), face_count);
     for (int level = 0; level < map.level_count(); ++level) {
         for (int face = 0; face < face_count; ++face) {
-            const bool has_rim = map.projection == Projection::dual_paraboloid;
-            fill(texture, level, face,
-                 has_rim ? filled_beyond_rim(map, level, face) : map.levels[level].faces[face]);
+            fill(texture, level, face, map.levels[level].faces[face]);
         }
     }
     check("taking an environment map");

@@ -29,8 +29,8 @@ struct Texture {
 /// takes
 void check_texture_size(GLenum target, int width, int height);
 
-/// Lets lookups in cube maps filter across their edges: OpenGL ES always does, desktop OpenGL when it
-/// is told.
+/// Lets lookups in cube maps filter across their edges: OpenGL ES always does, desktop OpenGL when
+/// it is told.
 void make_cubes_seamless();
 
 /// Room without content, for drawing into: GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY or
@@ -45,8 +45,8 @@ void make_cubes_seamless();
 /// Fills a texture's levels. Values that a half float cannot hold are clamped.
 [[nodiscard]] Texture upload(const Image& image, bool mips = false);
 
-/// A cube as a cube texture, a pair of paraboloids as an array of two, each filled beyond its rim
-/// with what goes on there, anything else as one picture. A panorama repeats sideways.
+/// A cube as a cube texture, a panorama, which repeats sideways, or an octahedral map as one
+/// picture. Maps with rims are made by Warp.
 [[nodiscard]] Texture upload(const EnvironmentMap& map);
 /// A cube as six plain pictures that know nothing of each other.
 [[nodiscard]] std::vector<Texture> upload_faces(const EnvironmentMap& cube);

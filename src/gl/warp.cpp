@@ -2,6 +2,7 @@
 
 #include "check.h"
 #include "framebuffer_guard.h"
+#include "map_textures.h"
 
 namespace mirrorball::gl {
 
@@ -30,8 +31,7 @@ void Warp::operator()(const Texture& cube, const Axes& cube_axes, Shape shape, c
                 Imath::V2f(static_cast<float>(into.width), static_cast<float>(into.height)));
     // From the new map's frame to the world, and from there to the cube's.
     const Axes turn{cube_axes.to_map(axes.x), cube_axes.to_map(axes.y), cube_axes.to_map(axes.z)};
-    program.set("u_to_cube", Imath::M33f(turn.x.x, turn.x.y, turn.x.z, turn.y.x, turn.y.y, turn.y.z,
-                                         turn.z.x, turn.z.y, turn.z.z));
+    program.set("u_to_cube", to_map_matrix(turn).transposed());
     glBindVertexArray(nothing_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     check("warping a map");

@@ -13,7 +13,7 @@
 #include "gl/target.h"
 #include "gl/texture.h"
 #include "gl_test.h"
-#include "sphere_map.h"
+#include "warped_map.h"
 
 namespace mirrorball::gl {
 namespace {
@@ -114,7 +114,7 @@ class FixedFunction : public GlTest {
             if (mode == GL_SPHERE_MAP) {
                 // t grows down, as rows are stored
                 const Imath::M44d flipped(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1);
-                const EnvironmentMap sphere = warped_to_sphere(maps.mirror, camera);
+                const EnvironmentMap sphere = warped(maps.mirror, Projection::sphere, camera);
                 return draw_with_texgen(scene, *assets, upload(sphere.levels[0].faces[0], true),
                                         mode, flipped);
             }

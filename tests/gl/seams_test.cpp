@@ -72,7 +72,8 @@ TEST_P(EveryMethod, LightWithoutEdgesShowsNone) {
     double most_over_direct = 0;
     for (const char* mesh : {"sphere", "torus"}) {
         Scene scene = scene_with(mesh, mirror_material(), GetParam());
-        scene.map_size = 16;
+        // Next to the others' texels those of old cubes have to be large, so that edges show.
+        scene.map_size = GetParam() == Method::cube_seams ? 16 : 32;
         const SurfaceBuffer buffer = renderer.surfaces(scene, width, height);
         const Image image = radiance(renderer, scene, width, height);
         double largest = 0, largest_direct = 0;
@@ -98,16 +99,12 @@ TEST_P(EveryMethod, LightWithoutEdgesShowsNone) {
     }
     switch (GetParam()) {
         case Method::cube:
+        case Method::dual_paraboloid:
         case Method::equirect:
             EXPECT_LE(most_over_direct, 1.05);
             break;
         case Method::octahedral:
             // steeper, by a quarter of a texel, where rows of texels turn at a fold
-            EXPECT_LE(most_over_direct, 1.25);
-            break;
-        case Method::dual_paraboloid:
-            // Texels that the rim cuts are means of the part that is used, so each map ends with a
-            // little too much of its own side: a step of up to half a texel.
             EXPECT_LE(most_over_direct, 1.25);
             break;
         case Method::cube_seams:
