@@ -145,7 +145,7 @@ std::vector<Scratch> scratches_of(const Tile& tile, double depth) {
 
 Image draw_scratches(const Tile& tile) {
     // A scratch narrower than texels can show is as much wider as it is shallower: the same volume.
-    constexpr double kWidth = 0.0012, kDepth = 0.0003;
+    constexpr double kWidth = 0.0012, kDepth = 0.0006;
     const double texel = std::max(tile.width / tile.columns, tile.height / tile.rows);
     const double side = tile.side(), sigma = std::max(kWidth * side, 0.8 * texel);
     const double reach = 4.5 * sigma;  // the profile is 4e-5 there

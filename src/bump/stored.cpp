@@ -1,4 +1,5 @@
 // Normal maps as pictures: 1/2 + n/2, green up or down.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -30,18 +31,22 @@ double length(double x, double y, double z) {
     return std::hypot(x, y, z);
 }
 
-// Whether the texels are nearer to unit length as they are than as 1/2 + n/2.
+// Whether the picture holds n itself: some of it is clearly negative, or all of it is of unit
+// length as it is and not as 1/2 + n/2.
 bool holds_signed_values(const Image& picture) {
+    constexpr float kClearlyNegative = -0.1f;  // not a resampling filter's overshoot
+    constexpr double kUnitLength = 0.01;       // on average
     double as_is = 0, halved = 0;
     for (int y = 0; y < picture.height(); ++y)
         for (int x = 0; x < picture.width(); ++x) {
-            const Vec3d texel(picture.rgb(x, y));
-            const double off = std::abs(length(texel.x, texel.y, texel.z) - 1);
-            as_is += std::min(off, 1.0);
-            const Vec3d n = texel * 2 - Vec3d(1);
-            halved += std::min(std::abs(length(n.x, n.y, n.z) - 1), 1.0);
+            const Vec3f texel = picture.rgb(x, y);
+            if (std::min({texel.x, texel.y, texel.z}) < kClearlyNegative) return true;
+            const double from_middle =
+                length(2.0 * texel.x - 1, 2.0 * texel.y - 1, 2.0 * texel.z - 1);
+            as_is += std::abs(length(texel.x, texel.y, texel.z) - 1);
+            halved += std::abs(from_middle - 1);
         }
-    return as_is < halved;
+    return as_is < halved && as_is < kUnitLength * static_cast<double>(picture.texel_count());
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ TEST_F(BumpVerb, RefusesWhatItCannotDo) {
     expect_refused({"bump", "builtin:wavs", "-o", out}, 2, "did you mean \"waves\"?");
     expect_refused({"bump", grey, "-o", out, "--to", "hight"}, 2, "did you mean \"height\"?");
     expect_refused({"bump", grey, "-o", out, "--wrap", "tile"}, 2, "repeat, clamp, mirror");
-    expect_refused({"bump", grey, "-o", out, "--green", "left"}, 2, "up (OpenGL)");
+    expect_refused({"bump", grey, "-o", out, "--green", "left"}, 2, "there are: up, down");
     expect_refused({"bump", grey, "-o", out, "--size", "4"}, 2, "only built-in sources");
     expect_refused({"bump", grey, "-o", out, "--time", "4"}, 2, "only built-in sources");
     expect_refused({"bump", grey, "-o", out, "--scale", "nan"}, 2, "--scale");

@@ -409,5 +409,27 @@ TEST(Tiff, WhatIsNotReadIsNamed) {
     refused({8, SAMPLEFORMAT_UINT, 3, false, false, PHOTOMETRIC_CIELAB}, {"kind 8", "grey or RGB"});
 }
 
+// Numbers that are no light -----------------------------------------------------------------------
+
+TEST(Transfer, LinearIntegersAreTheNumbersThemselves) {
+    const TemporaryFolder folder;
+    Image image(5, 3, 3);
+    for (std::size_t i = 0; i < image.values().size(); ++i)
+        image.values()[i] = static_cast<float>(i) / 45;
+    for (const char* name : {"a.png", "a.tif"})
+        for (const auto& [format, most] :
+             {std::pair{TexelFormat::unorm8, 255.0}, {TexelFormat::unorm16, 65535.0}}) {
+            write_image(folder / name, image, {.format = format, .transfer = Transfer::linear});
+            const Image back = read_image(folder / name, {.transfer = Transfer::linear});
+            for (std::size_t i = 0; i < image.values().size(); ++i)
+                EXPECT_NEAR(back.values()[i], image.values()[i], 0.501 / most) << name;
+            // What is not asked for stays sRGB, and is another file.
+            write_image(folder / name, image, {.format = format});
+            EXPECT_NEAR(read_image(folder / name).values()[9], image.values()[9], 2 / most);
+            EXPECT_GT(read_image(folder / name, {.transfer = Transfer::linear}).values()[9],
+                      image.values()[9] + 0.2f);
+        }
+}
+
 }  // namespace
 }  // namespace mirrorball
