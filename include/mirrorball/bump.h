@@ -105,10 +105,10 @@ struct NormalFaults {
     bool signed_values = false;       ///< the picture held n itself
 };
 
-/// Normals of a picture that holds 1/2 + n/2 or, if some of it is clearly negative or only so of unit
-/// length, n itself. `step` is the distance of two codes (1/255 for 8 bits): the two next to one
-/// half, neither of which is one half, both stand for 0, so that flat stays flat.
-/// \throws Error(Errc::cannot_read) if it has fewer than three channels or holds NaN or infinity
+/// Normals of a picture that holds 1/2 + n/2 or, if some of it is clearly negative or only so of
+/// unit length, n itself. `step` is the distance of two codes (1/255 for 8 bits): the two next to
+/// one half, neither of which is one half, both stand for 0, so that flat stays flat. \throws
+/// Error(Errc::cannot_read) if it has fewer than three channels or holds NaN or infinity
 [[nodiscard]] NormalMap parse_normals(const Image& picture, Green green, double step = 0,
                                       NormalFaults* faults = nullptr);
 

@@ -132,11 +132,11 @@ std::vector<Scratch> scratches_of(const Tile& tile, double depth) {
     std::vector<Scratch> scratches;
     for (int i = 0; i < count; ++i) {
         const auto number = [&](int which) { return lattice_number(i, which, kSeed); };
-        const double angle = kPi * number(2);
-        const double length = side * (0.06 + 0.6 * number(3) * number(3));  // most are short
-        scratches.push_back({tile.width * number(0), tile.height * number(1),
-                             length * std::cos(angle), length * std::sin(angle),
-                             depth * (0.3 + 0.7 * number(4))});
+        const double angle = kPi * number(0);
+        const double length = side * (0.06 + 0.6 * number(1) * number(1));  // most are short
+        const Vec2 begin = even_point(i);
+        scratches.push_back({tile.width * begin.x, tile.height * begin.y, length * std::cos(angle),
+                             length * std::sin(angle), depth * (0.3 + 0.7 * number(2))});
     }
     return scratches;
 }

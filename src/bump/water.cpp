@@ -99,18 +99,17 @@ Image draw_ripples(const Tile& tile) {
     const double turned = std::remainder(water_omega(k) * tile.time, 2 * kPi);
 
     struct Drop {
-        double u, v, phase;
+        Vec2 at;
+        double phase;
     };
     Drop drops[kDrops];
-    for (int i = 0; i < kDrops; ++i)
-        drops[i] = {lattice_number(i, 0, 11), lattice_number(i, 1, 11),
-                    2 * kPi * lattice_number(i, 2, 11)};
+    for (int i = 0; i < kDrops; ++i) drops[i] = {even_point(i), 2 * kPi * lattice_number(i, 0, 11)};
     return draw(tile, [&](double u, double v) {
         double sum = 0;
         for (const Drop& drop : drops) {
             // The nearest of the tile's repetitions: a radius is less than half of it.
-            const double x = std::remainder(u - drop.u, 1.0) * tile.width;
-            const double y = std::remainder(v - drop.v, 1.0) * tile.height;
+            const double x = std::remainder(u - drop.at.x, 1.0) * tile.width;
+            const double y = std::remainder(v - drop.at.y, 1.0) * tile.height;
             const double r = std::hypot(x, y);
             if (r >= radius) continue;
             const double window = std::sin(kPi * r / radius);

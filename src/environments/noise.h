@@ -92,9 +92,13 @@ inline NoiseSample tiling_noise(const Vec2& p, std::int32_t period_x, std::int32
     });
 }
 
-/// A number from 0 to 1 for a point of a lattice.
+/// A number from 0 to 1 for a point of a lattice. Mixed further than gradients need it, so that the
+/// numbers of neighbours can serve as coordinates of one point.
 inline double lattice_number(std::int32_t x, std::int32_t y, std::uint32_t seed) {
-    return noise_detail::hash(x, y, seed) / 4294967296.0;
+    std::uint32_t h = noise_detail::hash(x, y, seed);
+    h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
+    h = (h ^ (h >> 12)) * 0x297A2D39u;
+    return (h ^ (h >> 15)) / 4294967296.0;
 }
 
 /// Octaves of noise, each of half the size of the one before and `gain` times as strong. Octaves
@@ -127,5 +131,13 @@ struct Fractal {
         return sum;
     }
 };
+
+/// Point i of a sequence that fills the unit square evenly (Roberts 2018, "R2": steps by powers of
+/// the plastic number's inverse, modulo 1).
+inline Vec2 even_point(int i) {
+    constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
+    const double x = 0.5 + kStepX * i, y = 0.5 + kStepY * i;
+    return {x - std::floor(x), y - std::floor(y)};
+}
 
 }  // namespace mirrorball::detail
