@@ -1,5 +1,6 @@
 // Sources: tiles without seams at any size, the same bits each time, waves that move as water does.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -71,6 +72,7 @@ TEST(BumpSources, AreFiniteAndNeitherFlatNorSteep) {
 
 TEST(BumpSources, AreTheSameBitsAtAnyNumberOfThreads) {
     for (const BumpSource& source : bump_sources()) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 4);
         std::vector<float> one, many;
         tbb::task_arena(1).execute([&] { one = values(make_bump(source.name, 100, 60)); });
         tbb::task_arena(4).execute([&] { many = values(make_bump(source.name, 100, 60)); });
