@@ -163,8 +163,7 @@ struct Camera {
 /// so far away that the ball fits.
 struct Bounds;
 [[nodiscard]] Camera framing(const Bounds& bounds, double aspect = 1, double yaw = 0.45,
-                             double pitch = 0.3,
-                             double field_of_view = Camera().field_of_view);
+                             double pitch = 0.3, double field_of_view = Camera().field_of_view);
 
 /// How reflections are looked up: sections 2 and 3 of the survey. name() and parse_method() spell
 /// them as below, with - for _. docs/rendering.md shows each.
@@ -202,5 +201,9 @@ struct Scene {
 
     bool operator==(const Scene&) const = default;
 };
+
+/// The exposure that a scene asks for, or the one that suits an environment whose usual_exposure()
+/// is given. A dark environment, of intensity 0, says nothing about lights.
+[[nodiscard]] double exposure_of(const Scene& scene, double usual_exposure);
 
 }  // namespace mirrorball

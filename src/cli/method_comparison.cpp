@@ -26,13 +26,6 @@ ReflectionMaps true_maps(const LoadedScene& loaded) {
     return maps;
 }
 
-double exposure_of(const LoadedScene& loaded) {
-    const Scene& scene = loaded.scene;
-    return scene.exposure > 0
-               ? scene.exposure
-               : usual_exposure(loaded.assets->environment) / scene.environment.intensity;
-}
-
 void add(Image& sum, const Image& image) {
     std::transform(sum.values().begin(), sum.values().end(), image.values().begin(),
                    sum.values().begin(), std::plus<>());
@@ -48,7 +41,7 @@ struct Truth {
 Truth evaluate(const LoadedScene& loaded, gl::Renderer& renderer, int width, int height,
                int sample_count) {
     const ReflectionMaps maps = true_maps(loaded);
-    const double exposure = exposure_of(loaded);
+    const double exposure = exposure_of(loaded.scene, usual_exposure(loaded.assets->environment));
     Truth truth{Image(width, height, 3), Image(width, height, 1)};
     for (int i = 0; i < sample_count; ++i) {
         const SurfaceBuffer surfaces =

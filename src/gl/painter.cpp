@@ -217,9 +217,8 @@ const Texture& Painter::background_for(const Scene& scene) {
 }
 
 double Painter::exposure_for(const Scene& scene) {
-    if (scene.exposure > 0) return scene.exposure;
     if (!usual_exposure_) usual_exposure_ = usual_exposure(assets_->environment);
-    return *usual_exposure_ / scene.environment.intensity;
+    return exposure_of(scene, *usual_exposure_);
 }
 
 const MeshBuffers& Painter::buffers_of(const SceneObject& object) {

@@ -66,4 +66,10 @@ Camera framing(const Bounds& bounds, double aspect, double yaw, double pitch,
     return camera;
 }
 
+double exposure_of(const Scene& scene, double usual_exposure) {
+    if (scene.exposure > 0) return scene.exposure;
+    const double intensity = scene.environment.intensity;
+    return intensity > 0 ? usual_exposure / intensity : usual_exposure;
+}
+
 }  // namespace mirrorball

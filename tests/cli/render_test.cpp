@@ -88,6 +88,18 @@ TEST(RenderVerb, FindsTheEnvironmentOfTheCommandLineFromHere) {
     EXPECT_NEAR(read_image(target).rgb(5, 5).x, 1, 1e-3);
 }
 
+// No light at all is black, not NaN.
+TEST(RenderVerb, DarkEnvironmentsAreDark) {
+    const TemporaryFolder folder;
+    const std::string scene = (folder / "dark.json").string();
+    const std::string target = (folder / "dark.png").string();
+    write_contents(scene, R"({"objects": [{"mesh": "sphere", "material": "plastic"}],
+                              "environment": {"source": "builtin:white", "intensity": 0}})");
+    const Outcome outcome = run(render(target, {scene}));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const float value : read_image(target).values()) ASSERT_EQ(value, 0);
+}
+
 TEST(RenderVerb, RefusesWhatCannotBeDrawn) {
     const TemporaryFolder folder;
     const std::string target = (folder / "x.png").string();
