@@ -97,7 +97,8 @@ TEST(RenderVerb, DarkEnvironmentsAreDark) {
                               "environment": {"source": "builtin:white", "intensity": 0}})");
     const Outcome outcome = run(render(target, {scene}));
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    for (const float value : read_image(target).values()) ASSERT_EQ(value, 0);
+    const Image picture = read_image(target);
+    for (const float value : picture.values()) ASSERT_EQ(value, 0);
 }
 
 TEST(RenderVerb, RefusesWhatCannotBeDrawn) {
