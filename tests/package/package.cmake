@@ -17,4 +17,5 @@ set_tests_properties(package.consumer PROPERTIES FIXTURES_REQUIRED package)
 add_test(NAME package.picture
     COMMAND ${CMAKE_CURRENT_BINARY_DIR}/package/build/picture
     WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/package/build)
-set_tests_properties(package.picture PROPERTIES FIXTURES_REQUIRED package DEPENDS package.consumer)
+set_tests_properties(package.picture PROPERTIES FIXTURES_REQUIRED package DEPENDS package.consumer
+    ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")  # see tests/cli/CMakeLists.txt
