@@ -15,7 +15,6 @@
 
 uniform MAP u_mirror_map, u_glossy_map, u_diffuse_map;
 uniform mat3 u_to_map;  // from the world
-uniform float u_finest_level;  // of the mirror map: above 0 if it is to be seen blurred
 
 // The level whose texels are as large as what a pixel sees. Directions have no seams, so neither has
 // this, whatever the texture coordinates do.
@@ -24,7 +23,7 @@ float footprint_level(vec3 d) {
     float seen = length(cross(dFdx(u), dFdy(u)));
     // no number where a neighbour beyond the triangle's edge has no direction to look up
     float sure = seen > 1e-20 ? seen : 1e-20;
-    return max(u_finest_level, 0.5 * log2(sure / texel_solid_angle(u_mirror_map, d)));
+    return max(0.0, 0.5 * log2(sure / texel_solid_angle(u_mirror_map, d)));
 }
 
 vec3 mirrored_light(vec3 r) {
@@ -33,7 +32,7 @@ vec3 mirrored_light(vec3 r) {
 }
 
 vec3 glossy_light(vec3 r) {
-    return look_up(u_glossy_map, u_to_map * r, u_glossy_level);
+    return look_up(u_glossy_map, u_to_map * r, 0.0);
 }
 
 vec3 irradiance(vec3 n) {

@@ -11,7 +11,6 @@ out vec4 o_color;
 
 uniform vec3 u_eye;
 uniform float u_intensity;     // of the environment
-uniform float u_glossy_level;  // of the glossy map that the material's lobe is at
 
 #if PER_VERTEX
 #include "light_per_vertex.glsl"

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <mirrorball/direct.h>
 #include <mirrorball/fresnel.h>
 #include <mirrorball/lookup.h>
 
@@ -14,21 +15,6 @@ namespace mirrorball::cli {
 namespace {
 
 const Vec3d kLacquer(0.55, 0.07, 0.05), kPlastic(0.05, 0.20, 0.45);
-
-// The perceptual roughness that is about as wide; a Phong lobe is as wide as Blinn's of 4 N.
-double roughness_of(const Lobe& lobe) {
-    const auto of_blinn = [](double exponent) { return std::sqrt(std::sqrt(2 / (exponent + 2))); };
-    switch (lobe.kind) {
-        case Lobe::Kind::mirror:
-            return 0;
-        case Lobe::Kind::phong:
-            return of_blinn(4 * lobe.parameter);
-        case Lobe::Kind::blinn_phong:
-            return of_blinn(lobe.parameter);
-        default:
-            return lobe.parameter;
-    }
-}
 
 /// What shaders read of a bake's files. The view is along z: n.v is n.z.
 class Light {

@@ -217,8 +217,9 @@ const Texture& Painter::background_for(const Scene& scene) {
 }
 
 double Painter::exposure_for(const Scene& scene) {
-    if (!usual_exposure_) usual_exposure_ = usual_exposure(assets_->environment);
-    return exposure_of(scene, *usual_exposure_);
+    if (scene.exposure <= 0 && !usual_exposure_)
+        usual_exposure_ = usual_exposure(assets_->environment);
+    return exposure_of(scene, usual_exposure_.value_or(1));
 }
 
 const MeshBuffers& Painter::buffers_of(const SceneObject& object) {
@@ -272,8 +273,6 @@ void Painter::set_maps(const Program& program, const Material& material,
     program.set("u_mirror_map", kMirrorUnit);
     program.set("u_glossy_map", kGlossyUnit);
     program.set("u_diffuse_map", kDiffuseUnit);
-    program.set("u_glossy_level", 0.0f);
-    program.set("u_finest_level", 0.0f);
 }
 
 void Painter::draw_split(const SceneObject& object, const Vec3d& eye, const LookupMaps& maps,
