@@ -140,12 +140,12 @@ struct BumpReadOptions {
 
 /// Heights where the file has them, and slopes of whatever it has.
 struct BumpPicture {
-    BumpKind kind;
-    std::optional<HeightMap> relief;
-    SlopeMap slopes;
-    std::optional<NormalMap> normals;  ///< as they were read
+    BumpKind kind = BumpKind::height;
+    std::optional<HeightMap> relief = {};
+    SlopeMap slopes = {};
+    std::optional<NormalMap> normals = {};  ///< as they were read
     /// What was odd about it, for people: one sentence each, without the file's name.
-    std::vector<std::string> remarks;
+    std::vector<std::string> remarks = {};
 };
 /// \throws what read_image() does, and Error(Errc::cannot_read) naming the file where it has too
 /// few channels or holds a value that is not finite

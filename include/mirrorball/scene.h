@@ -50,8 +50,9 @@ enum class BumpForm {
 
 /// What becomes of bumps that are too fine for a pixel.
 enum class BumpFilter {
-    none,  ///< nothing: one point of the finest level, of the bump and of what it reflects; sparkles
-    mean,  ///< they cancel out, and the surface gets smoother than it is: plain mip levels
+    none,      ///< nothing: one point of the finest level, of the bump and of what it reflects;
+               ///< sparkles
+    mean,      ///< they cancel out, and the surface gets smoother than it is: plain mip levels
     variance,  ///< they make it rougher: alpha'^2 = alpha^2 + 2 variance, see bump.h
 };
 /// "none", "mean", "variance"
@@ -62,21 +63,22 @@ enum class BumpFilter {
 /// Relief of a material, by the texture coordinates (s, t) of its mesh. Slopes are taken as the
 /// source has them, in metres per metre, however large the mesh makes its tiles.
 struct BumpMap {
-    std::string source;                       ///< of bump_sources(), or a picture; empty: smooth
-    std::optional<BumpKind> kind;             ///< of a picture; else grey ones are heights
-    Green green = Green::up;                  ///< of a picture of normals
-    Wrap wrap = Wrap::repeat;                 ///< of a picture; sources are tiles
-    double height_scale = 1;                  ///< metres per value of a picture of heights
-    double width = 0;                         ///< metres that it covers; 0: 1, or the source's own
-    int size = 512;                           ///< of a source, in texels; 1 to 4096
-    Imath::V2d repeat{1};                     ///< tiles from (0, 0) to (1, 1)
-    Imath::V2d offset{0}, drift{0};           ///< of tiles; and what is added to it each second
-    double strength = 1;                      ///< multiplies slopes; -100 to 100
+    std::string source;              ///< of bump_sources(), or a picture; empty: smooth
+    std::optional<BumpKind> kind;    ///< of a picture; else grey ones are heights
+    Green green = Green::up;         ///< of a picture of normals
+    Wrap wrap = Wrap::repeat;        ///< of a picture; sources are tiles
+    double height_scale = 1;         ///< metres per value of a picture of heights
+    double width = 0;                ///< metres that it covers; 0: 1, or the source's own
+    int size = 512;                  ///< of a source, in texels; 1 to 4096
+    Imath::V2d repeat{1};            ///< tiles from (0, 0) to (1, 1)
+    Imath::V2d offset{0}, drift{0};  ///< of tiles; and what is added to it each second
+    double strength = 1;             ///< multiplies slopes; -100 to 100
     BumpForm form = BumpForm::normals;
     BumpFilter filter = BumpFilter::variance;
 
     // Of the form `normals`.
-    double relief = 0;    ///< depth of the relief, which the eye looks into, in tiles; 0 to 1; 0: flat
+    double relief =
+        0;  ///< depth of the relief, which the eye looks into, in tiles; 0 to 1; 0: flat
     bool horizon = true;  ///< do reflections into the surface get darker?
 
     /// Of the form `classic`, (m00 m01; m10 m11):
@@ -267,6 +269,10 @@ enum class Method {
 [[nodiscard]] Method parse_method(std::string_view name);
 /// The projection whose maps it looks up.
 [[nodiscard]] Projection projection_of(Method method);
+
+/// Can such a method show a bump map? The classic form takes sphere maps, the other lookups per
+/// pixel.
+[[nodiscard]] bool can_show(Method method, const BumpMap& bump);
 
 struct Scene {
     std::vector<SceneObject> objects;

@@ -57,8 +57,9 @@ HeightMap heights_of(const Image& picture, const BumpReadOptions& options) {
 
 SlopeMap slopes_of(const Image& picture, double step, double range) {
     if (picture.channels() < 2)
-        throw Error(Errc::cannot_read, "a picture of 1 channel is no du/dv map (2 were expected; "
-                                       "one alone may be heights)");
+        throw Error(Errc::cannot_read,
+                    "a picture of 1 channel is no du/dv map (2 were expected; "
+                    "one alone may be heights)");
     SlopeMap map{Image(picture.width(), picture.height(), 2)};
     for (int y = 0; y < picture.height(); ++y)
         for (int x = 0; x < picture.width(); ++x)
@@ -71,9 +72,10 @@ SlopeMap slopes_of(const Image& picture, double step, double range) {
                                             x, y, value));
                 // The two codes next to one half both stand for none.
                 const double signed_value = 2 * double{value} - 1;
-                const double slope = step == 0                               ? double{value}
-                                     : std::abs(signed_value) <= 1.001 * step ? 0
-                                                                              : signed_value * range;
+                const double slope = step == 0 ? double{value}
+                                     : std::abs(signed_value) <= 1.001 * step
+                                         ? 0
+                                         : signed_value * range;
                 map.slopes.at(x, y)[c] = static_cast<float>(slope);
             }
     return map;
@@ -82,9 +84,8 @@ SlopeMap slopes_of(const Image& picture, double step, double range) {
 void remark_on(const NormalFaults& faults, std::vector<std::string>& remarks) {
     if (faults.signed_values) remarks.emplace_back("holds normals as they are, not as 1/2 + n/2");
     if (faults.inward_count > 0)
-        remarks.push_back(
-            fmt::format("{} normals point into the surface and are turned out of it",
-                        faults.inward_count));
+        remarks.push_back(fmt::format("{} normals point into the surface and are turned out of it",
+                                      faults.inward_count));
     if (faults.without_count > 0)
         remarks.push_back(
             fmt::format("{} texels have no direction and are taken as flat", faults.without_count));

@@ -121,7 +121,8 @@ Image stored_slopes(const SlopeMap& map, bool integer, double range) {
     return picture;
 }
 
-Image stored_picture(const BumpPicture& bump, bool integer, const Options& options, const Shared& shared) {
+Image stored_picture(const BumpPicture& bump, bool integer, const Options& options,
+                     const Shared& shared) {
     switch (options.to) {
         case BumpKind::height:
             return stored_heights(*bump.relief, integer, options, shared);
@@ -202,7 +203,8 @@ void check_options(const Options& options, bool drawn) {
     MapWriteOptions write;
     write.format = options.format;
     check_target(options.output, write);
-    if (drawn && options.read.kind) throw Error(Errc::usage, "--from: built-in sources are heights");
+    if (drawn && options.read.kind)
+        throw Error(Errc::usage, "--from: built-in sources are heights");
     if (!drawn && options.has_size)
         throw Error(Errc::usage, "--size: only built-in sources have any; files keep their own");
     if (!drawn && options.has_time) throw Error(Errc::usage, "--time: only built-in sources move");
@@ -225,8 +227,7 @@ int run(const Options& options, const Shared& shared) {
     write.format = format_for(options);
     write.transfer = Transfer::linear;
     write.metadata = {{"mirrorball.bump", name(options.to)}};
-    if (options.to == BumpKind::normal)
-        write.metadata["mirrorball.green"] = name(options.green);
+    if (options.to == BumpKind::normal) write.metadata["mirrorball.green"] = name(options.green);
     const WriteReport report = write_image(
         options.output, stored_picture(bump, is_integer(write.format), options, shared), write);
     if (report.clipped_texel_count > 0)
@@ -271,7 +272,8 @@ Command bump_command(Shared& shared) {
         {"-o,--output", "FILE", "the result: .png .tif .exr .ktx2 ...", text(options->output),
          file_choices()},
         {"--list", "", "the built-in sources there are", flag(options->list)},
-        {"--to", "KIND", "height, normal or dudv [normal]", parsed(options->to, parse_bump_kind), kinds},
+        {"--to", "KIND", "height, normal or dudv [normal]", parsed(options->to, parse_bump_kind),
+         kinds},
         {"--from", "KIND", "of a file [height if it is grey, else normal]", set_from, kinds},
         {"--scale", "METRES", "what a height of 1 in the file stands for; times built-in ones [1]",
          real_number(read.scale, -kMost, kMost)},

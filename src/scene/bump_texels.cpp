@@ -26,8 +26,14 @@ Image normalised(const Image& heights) {
     return result;
 }
 
+Image level_heights() {
+    Image heights(1, 1, 1);
+    *heights.at(0, 0) = 1;
+    return heights;
+}
+
 BumpTexels texels_of(SlopeMap slopes, const std::optional<HeightMap>& relief) {
-    return {std::move(slopes), relief ? normalised(relief->heights) : Image(1, 1, 1, 1.0f)};
+    return {std::move(slopes), relief ? normalised(relief->heights) : level_heights()};
 }
 
 }  // namespace
@@ -65,8 +71,8 @@ bool moves(const BumpMap& bump) {
 
 std::string bump_key(const BumpMap& bump) {
     return fmt::format("{} {} {} {} {} {} {}", bump.source,
-                       bump.kind ? name(*bump.kind) : "any kind", name(bump.green),
-                       name(bump.wrap), bump.height_scale, bump.width, bump.size);
+                       bump.kind ? name(*bump.kind) : "any kind", name(bump.green), name(bump.wrap),
+                       bump.height_scale, bump.width, bump.size);
 }
 
 std::shared_ptr<const BumpTexels> bump_texels(const BumpMap& bump, const SceneAssets& assets,

@@ -38,8 +38,8 @@ Imath::M22d matrix_at(const BumpMap& bump, double time) {
     const double angle = bump.matrix_turn * time;
     const double c = std::cos(angle), s = std::sin(angle);
     const Imath::M22d& m = bump.matrix;
-    return {c * m[0][0] - s * m[1][0], c * m[0][1] - s * m[1][1],
-            s * m[0][0] + c * m[1][0], s * m[0][1] + c * m[1][1]};
+    return {c * m[0][0] - s * m[1][0], c * m[0][1] - s * m[1][1], s * m[0][0] + c * m[1][0],
+            s * m[0][1] + c * m[1][1]};
 }
 
 }  // namespace mirrorball

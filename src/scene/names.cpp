@@ -7,8 +7,8 @@ namespace {
 
 constexpr detail::NameTable<Coupling, 3> kCouplings{"a coupling",
                                                     {"added", "layered", "split-sum"}};
-constexpr detail::NameTable<FaceDrawing, 3> kFaceDrawings{
-    "a way to draw the faces of a cube map", {"texture", "copy", "one-pass"}};
+constexpr detail::NameTable<FaceDrawing, 3> kFaceDrawings{"a way to draw the faces of a cube map",
+                                                          {"texture", "copy", "one-pass"}};
 constexpr detail::NameTable<BumpForm, 2> kBumpForms{"a form of bump mapping",
                                                     {"normals", "classic"}};
 constexpr detail::NameTable<BumpFilter, 3> kBumpFilters{"a filter of bumps",
