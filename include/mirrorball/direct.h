@@ -19,8 +19,8 @@ struct SurfaceBuffer {
     Image object;               ///< one channel: index in Scene::objects, or -1 for none
     Image texture_coordinates;  ///< two channels; (0, 0) is top left
     /// x and y of the tangent frame (bump.h), of the world: slopes du, dv turn the normal to
-    /// normal - du tangent - dv bitangent. 0 where the mesh has none.
-    Image tangent, bitangent;
+    /// normal - du tangent - dv bitangent. 0 where the mesh has none; empty if no object has.
+    Image tangent = {}, bitangent = {};
 };
 
 /// A point of a surface.

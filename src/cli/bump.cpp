@@ -226,8 +226,8 @@ int run(const Options& options, const Shared& shared) {
     WriteOptions write;
     write.format = format_for(options);
     write.transfer = Transfer::linear;
-    write.metadata = {{"mirrorball.bump", name(options.to)}};
-    if (options.to == BumpKind::normal) write.metadata["mirrorball.green"] = name(options.green);
+    write.metadata = {{"mirrorball.bump", std::string(name(options.to))}};
+    if (options.to == BumpKind::normal) write.metadata["mirrorball.green"] = std::string(name(options.green));
     const WriteReport report = write_image(
         options.output, stored_picture(bump, is_integer(write.format), options, shared), write);
     if (report.clipped_texel_count > 0)

@@ -450,11 +450,13 @@ Image shade(const Scene& scene, const SceneAssets& assets, const ReflectionMaps&
                 radiance = shading.background(scene.camera.eye, ray);
             } else {
                 const float* place = surfaces.texture_coordinates.at(x, y);
-                const SurfacePoint point{Vec3d(surfaces.position.rgb(x, y)),
-                                         Vec3d(surfaces.normal.rgb(x, y)),
-                                         {place[0], place[1]},
-                                         Vec3d(surfaces.tangent.rgb(x, y)),
-                                         Vec3d(surfaces.bitangent.rgb(x, y))};
+                SurfacePoint point{Vec3d(surfaces.position.rgb(x, y)),
+                                   Vec3d(surfaces.normal.rgb(x, y)),
+                                   {place[0], place[1]}};
+                if (!surfaces.tangent.empty()) {
+                    point.tangent = Vec3d(surfaces.tangent.rgb(x, y));
+                    point.bitangent = Vec3d(surfaces.bitangent.rgb(x, y));
+                }
                 radiance =
                     shading.surface(static_cast<std::size_t>(object), point, scene.camera.eye);
             }
