@@ -457,6 +457,13 @@ TEST_F(ReadMesh, GltfTangentsAreTakenOver) {
     expect_tangents(with_tangents(read("b.gltf", Gltf().embedded())).tangents, {1, 0, 0, 1});
 }
 
+TEST_F(ReadMesh, GltfTangentsStayWithTheirVertices) {
+    Gltf gltf = with_tangent_attribute({1, 0, 0, 1, 0, 1, 0, 1, -1, 0, 0, 1, 0, -1, 0, 1});
+    gltf.binary.replace(80, 12, bytes_of<std::uint16_t>({0, 2, 3, 0, 2, 3}));  // 1 is unused
+    EXPECT_EQ(read("a.gltf", gltf.embedded()).tangents,
+              (std::vector<Vec4f>{{1, 0, 0, 1}, {-1, 0, 0, 1}, {0, -1, 0, 1}}));
+}
+
 // What a file says of its tangents, and what is made where it does not, is one in every node.
 TEST_F(ReadMesh, GltfTangentsGoWithTheirNodes) {
     for (const char* transform :

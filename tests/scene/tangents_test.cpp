@@ -433,14 +433,31 @@ TEST(Tangents, WithoutTextureAreaFollowTheirNeighbours) {
     }
 }
 
+// Where both hands are around, such a part takes the one that is not mirrored.
+TEST(Tangents, WithoutTextureAreaBetweenBothHandsAreNotMirrored) {
+    Mesh mesh = half_mirrored();
+    mesh.positions.emplace_back(0, -1, 0);
+    mesh.normals.emplace_back(0, 0, 1);
+    mesh.texture_coordinates.push_back(mesh.texture_coordinates[0]);
+    mesh.indices.insert(mesh.indices.end(), {0, 5, 6});
+    const Mesh result = with_tangents(mesh);
+    expect_frames(result);
+    EXPECT_EQ(result.positions.size(), 9u);
+    EXPECT_EQ(result.indices[12], 0u);
+    EXPECT_EQ(result.tangents[0], Vec4f(1, 0, 0, 1));
+}
+
 TEST(Tangents, TrianglesWithoutAreaAddNothing) {
     const Mesh mesh = rough_mesh(), expected = with_tangents(mesh);
     Mesh more = mesh;
-    const auto twin = static_cast<std::uint32_t>(mesh.positions.size());
-    more.positions.push_back(mesh.positions[0]);
-    more.normals.push_back(mesh.normals[0]);
-    more.texture_coordinates.push_back({0.9f, 0.1f});
-    more.indices.insert(more.indices.end(), {0, 1, twin, 3, 3, 4, 5, 5, 5});
+    // Three on a line, whose middle one, vertex 0, has an angle of half a turn; and points.
+    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const float step : {-1.0f, 1.0f}) {
+        more.positions.push_back(mesh.positions[0] + Vec3f(0, step, 0));
+        more.normals.push_back(mesh.normals[0]);
+        more.texture_coordinates.push_back({0.9f * step, 0.1f});
+    }
+    more.indices.insert(more.indices.end(), {base, 0, base + 1, 3, 3, 4, 5, 5, 5});
     const Mesh result = with_tangents(more);
     expect_frames(result);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
