@@ -17,7 +17,15 @@ namespace mirrorball::gl {
 namespace {
 
 // Texture units; one each, so that nothing is bound where something else is looked for.
-enum Unit { kMirrorUnit, kGlossyUnit, kDiffuseUnit, kFresnelUnit, kDfgUnit, kBaseColorUnit };
+enum Unit {
+    kMirrorUnit,
+    kGlossyUnit,
+    kDiffuseUnit,
+    kFresnelUnit,
+    kDfgUnit,
+    kBaseColorUnit,
+    kRoughUnit
+};
 
 std::string_view glsl_name(Method method) {
     switch (method) {
@@ -269,6 +277,13 @@ void Painter::set_maps(const Program& program, const Material& material,
     if (maps.method != Method::cube_split) {
         maps.textures->mirror.bind(kMirrorUnit);
         if (material.glossy > 0) maps.textures->glossy[maps.lobe].bind(kGlossyUnit);
+    }
+    const Texture& rough = maps.textures->rough;
+    if (!rough.empty()) {
+        rough.bind(kRoughUnit);
+        program.set("u_rough_map", kRoughUnit);
+        program.set("u_rough_levels", static_cast<float>(rough.level_count));
+        program.set("u_mirror_alpha", static_cast<float>(maps.mirror_alpha));
     }
     program.set("u_mirror_map", kMirrorUnit);
     program.set("u_glossy_map", kGlossyUnit);
