@@ -145,7 +145,7 @@ void add_bump_definitions(Definitions& definitions, const BumpMap& bump, const L
     if (bump.horizon) definitions.emplace_back("HAS_HORIZON");
     if (bump.filter == BumpFilter::none) definitions.emplace_back("FINEST_ONLY");
     // Maps of dynamic objects have no chain: there the mean is all that is shown.
-    if (bump.filter == BumpFilter::variance && maps.textures == nullptr)
+    if (bump.filter == BumpFilter::variance && !maps.textures->rough.empty())
         definitions.emplace_back("HAS_ROUGH_MAP");
 }
 
@@ -379,6 +379,13 @@ void Painter::set_maps(const Program& program, const Material& material,
     if (maps.method != Method::cube_split) {
         maps.textures->mirror.bind(kMirrorUnit);
         if (material.glossy > 0) maps.textures->glossy[maps.lobe].bind(kGlossyUnit);
+    }
+    const Texture& rough = maps.textures->rough;
+    if (!rough.empty()) {
+        rough.bind(kRoughUnit);
+        program.set("u_rough_map", kRoughUnit);
+        program.set("u_rough_levels", static_cast<float>(rough.level_count));
+        program.set("u_mirror_alpha", static_cast<float>(maps.mirror_alpha));
     }
     program.set("u_mirror_map", kMirrorUnit);
     program.set("u_glossy_map", kGlossyUnit);
