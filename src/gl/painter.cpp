@@ -442,8 +442,9 @@ void Painter::draw_object(const Scene& scene, const SceneObject& object, const L
     set_to_clip(program, shot);
     program.set("u_eye", shot.views[0].eye);
     set_material(program, object.material);
-    set_maps(program, object.material, maps);
+    // What has to be uploaded first goes through the unit of the maps, so they come last.
     if (has_bump(object.material, maps)) set_bump(program, object.material.bump, scene.time);
+    set_maps(program, object.material, maps);
     if (has_light_map) {
         light_map_->texture().bind(kLightMapUnit);
         program.set("u_light_map", kLightMapUnit);
