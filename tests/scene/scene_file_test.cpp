@@ -127,7 +127,28 @@ TEST(SceneFile, MaterialsByNameAndLikeAnother) {
     EXPECT_EQ(scene.objects[2].material.diffuse, 0);
 }
 
-// A chain as long as a file can hold is followed without recursion.
+TEST(SceneFile, HoldsEveryPreset) {
+    for (const MaterialPreset& preset : material_presets()) {
+        Scene scene;
+        scene.objects.push_back({.name = preset.name, .material = preset.material});
+        EXPECT_EQ(parsed(to_json(scene)), scene) << preset.name;
+    }
+}
+
+TEST(SceneFile, PresetsWithBumpsAreMadeOfSources) {
+    int count = 0;
+    const std::vector<BumpSource> sources = bump_sources();
+    for (const MaterialPreset& preset : material_presets()) {
+        if (preset.material.bump.is_smooth()) continue;
+        ++count;
+        EXPECT_TRUE(std::any_of(sources.begin(), sources.end(), [&](const BumpSource& source) {
+            return source.name == preset.material.bump.source;
+        })) << preset.name;
+        EXPECT_TRUE(can_show(Method::cube, preset.material.bump)) << preset.name;
+    }
+    EXPECT_EQ(count, 5);
+}
+
 TEST(SceneFile, PresetsAreThereUnlessTheFileUsesTheirNames) {
     const Scene preset = parse_scene(R"({"objects": [{"material": "gold"}, {"material": {"like":
         "plastic", "diffuse": 0.5}}]})",
