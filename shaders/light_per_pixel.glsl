@@ -19,6 +19,9 @@ uniform mat3 u_to_map;  // from the world
 // The level whose texels are as large as what a pixel sees. Directions have no seams, so neither has
 // this, whatever the texture coordinates do.
 float footprint_level(vec3 d) {
+#ifdef FINEST_ONLY
+    return 0.0;
+#endif
     vec3 u = normalize(d);
     float seen = length(cross(dFdx(u), dFdy(u)));
     // no number where a neighbour beyond the triangle's edge has no direction to look up

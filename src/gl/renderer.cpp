@@ -40,6 +40,18 @@ void check_dynamic(const DynamicReflection& dynamic) {
     }
 }
 
+void check_bump(const SceneObject& object, Method method) {
+    if (can_show(method, object.material.bump)) return;
+    std::string able;
+    for (const Method other : all_methods()) {
+        if (can_show(other, object.material.bump))
+            able += fmt::format("{}{}", able.empty() ? "" : ", ", name(other));
+    }
+    throw Error(Errc::usage,
+                fmt::format("method {} cannot show a bump map of the form {}; those that can: {}",
+                            name(method), name(object.material.bump.form), able));
+}
+
 void check_scene(const Scene& scene) {
     if (scene.lights.size() > kMostLights) {
         throw Error(Errc::usage, fmt::format("a scene may have {} lights, this one has {}",
@@ -47,6 +59,7 @@ void check_scene(const Scene& scene) {
     }
     for (const SceneObject& object : scene.objects) {
         if (object.dynamic) check_dynamic(*object.dynamic);
+        check_bump(object, scene.method);
     }
 }
 
@@ -207,31 +220,38 @@ SurfaceBuffer Renderer::Impl::surfaces(const Scene& scene, int width, int height
                                        const Imath::V2d& shift) {
     const View view = view_of(scene.camera, static_cast<double>(width) / height,
                               {2 * shift.x / width, 2 * shift.y / height});
-    const Target target(width, height, 3);
+    const Target target(width, height, 4);
     target.bind();
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     constexpr float kNothing[4] = {0, 0, 0, -1};
-    for (int i = 0; i < 3; ++i) glClearBufferfv(GL_COLOR, i, kNothing);
+    for (int i = 0; i < 4; ++i) glClearBufferfv(GL_COLOR, i, kNothing);
     glClear(GL_DEPTH_BUFFER_BIT);
-    const Program& program = programs_.get("surface.vert", "facts.frag", {"METHOD CUBE"});
+    const Program& program =
+        programs_.get("surface.vert", "facts.frag", {"METHOD CUBE", "HAS_TANGENTS"});
     program.use();
     program.set("u_to_clip", Imath::M44f(view.to_clip));
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Imath::M44d to_world = matrix(scene.objects[i].transform);
         program.set("u_to_world", Imath::M44f(to_world));
         program.set("u_normal_to_world", normal_matrix(to_world));
+        program.set("u_handedness", handedness(to_world));
         program.set("u_object", static_cast<float>(i));
         painter_.buffers_of(scene.objects[i]).draw();
     }
     check("drawing surfaces");
-    SurfaceBuffer buffer{target.read(3, 0), target.read(3, 1), Image(width, height, 1),
-                         target.read(2, 2)};
-    const Image with_object = target.read(4, 0);
+    SurfaceBuffer buffer{target.read(3, 0),       target.read(3, 1), Image(width, height, 1),
+                         Image(width, height, 2), target.read(3, 2), target.read(3, 3)};
+    const Image with_object = target.read(4, 0), with_s = target.read(4, 1),
+                with_t = target.read(4, 2);
     for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) *buffer.object.at(x, y) = with_object.at(x, y)[3];
+        for (int x = 0; x < width; ++x) {
+            *buffer.object.at(x, y) = with_object.at(x, y)[3];
+            buffer.texture_coordinates.at(x, y)[0] = with_s.at(x, y)[3];
+            buffer.texture_coordinates.at(x, y)[1] = with_t.at(x, y)[3];
+        }
     }
     return buffer;
 }
