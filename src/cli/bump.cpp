@@ -227,7 +227,8 @@ int run(const Options& options, const Shared& shared) {
     write.format = format_for(options);
     write.transfer = Transfer::linear;
     write.metadata = {{"mirrorball.bump", std::string(name(options.to))}};
-    if (options.to == BumpKind::normal) write.metadata["mirrorball.green"] = std::string(name(options.green));
+    if (options.to == BumpKind::normal)
+        write.metadata["mirrorball.green"] = std::string(name(options.green));
     const WriteReport report = write_image(
         options.output, stored_picture(bump, is_integer(write.format), options, shared), write);
     if (report.clipped_texel_count > 0)

@@ -145,7 +145,7 @@ void add_bump_definitions(Definitions& definitions, const BumpMap& bump, const L
     if (bump.horizon) definitions.emplace_back("HAS_HORIZON");
     if (bump.filter == BumpFilter::none) definitions.emplace_back("FINEST_ONLY");
     // Maps of dynamic objects have no chain: there the mean is all that is shown.
-    if (bump.filter == BumpFilter::variance && maps.textures == nullptr)
+    if (bump.filter == BumpFilter::variance && !maps.textures->rough.empty())
         definitions.emplace_back("HAS_ROUGH_MAP");
 }
 

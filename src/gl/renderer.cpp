@@ -68,6 +68,15 @@ bool has_dynamic_objects(const Scene& scene) {
                        [](const SceneObject& object) { return object.dynamic.has_value(); });
 }
 
+// Does variance of bumps turn into roughness anywhere?
+bool gets_rougher(const Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& object) {
+        const BumpMap& bump = object.material.bump;
+        return !bump.is_smooth() && bump.form == BumpForm::normals &&
+               bump.filter == BumpFilter::variance;
+    });
+}
+
 }  // namespace
 
 class Renderer::Impl {
@@ -91,6 +100,7 @@ class Renderer::Impl {
         Method method;
         int size;
         std::vector<Lobe> lobes;
+        bool rough;
         bool operator==(const MapsKey&) const = default;
     };
     struct KeptMaps {
@@ -112,10 +122,10 @@ class Renderer::Impl {
 };
 
 SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method, KeptMaps& kept) {
-    MapsKey key{method, map_size(scene, *assets_), lobes_of(scene)};
+    MapsKey key{method, map_size(scene, *assets_), lobes_of(scene), gets_rougher(scene)};
     if (kept.key != key) {
         kept.key.reset();
-        kept.maps.emplace(assets_->environment, key.method, key.size, key.lobes);
+        kept.maps.emplace(assets_->environment, key.method, key.size, key.lobes, key.rough);
         kept.key = std::move(key);
     }
     return *kept.maps;
