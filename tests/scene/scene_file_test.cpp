@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -165,6 +166,7 @@ TEST(SceneFile, PresetsAreThereUnlessTheFileUsesTheirNames) {
     EXPECT_EQ(own.objects[0].material, half);
 }
 
+// A chain as long as a file can hold is followed without recursion.
 TEST(SceneFile, LongChainsOfMaterials) {
     std::string text = R"({"objects": [{"material": "m0"}], "materials": {)";
     const int count = 20000;
@@ -290,7 +292,9 @@ TEST(SceneFile, DocumentedExample) {
     const std::string text = all.str(), fence = "```json\n";
     const std::size_t start = text.find(fence) + fence.size();
     const Scene scene = parsed(text.substr(start, text.find("```", start) - start));
-    ASSERT_EQ(scene.objects.size(), 4u);
+    ASSERT_EQ(scene.objects.size(), 5u);
+    EXPECT_EQ(scene.objects[1].material.bump.source, "hammered");
+    EXPECT_EQ(scene.objects[4].material.floor.value_or(Floor()).color_map, "tiles.png");
     EXPECT_EQ(scene.objects[1].material.fresnel, Fresnel::conductor("gold"));
     EXPECT_EQ(scene.objects[1].material.coupling, Coupling::split_sum);
     EXPECT_EQ(scene.lights.size(), 2u);
