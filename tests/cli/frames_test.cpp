@@ -215,15 +215,15 @@ TEST_F(Frames, PlacesThatCannotHoldThemAreRefused) {
     expect_nothing("shut/new/%d.png", frames, 4, "shut");
 }
 
-// A limit on the size of files stands for a full disk.
+// A limit on the size of files stands for a full disk; a .pfm is not packed and larger.
 TEST_F(Frames, AFullDiskLeavesWholeFramesOnly) {
     const auto before = files_in(folder_.path());
     std::vector<std::string> words = {"/bin/bash", "-c", "ulimit -f 1; exec \"$0\" \"$@\""};
-    for (const std::string& word : command(arguments("lit.json", "a/%d.exr", {"--frames", "0:3"})))
+    for (const std::string& word : command(arguments("lit.json", "a/%d.pfm", {"--frames", "0:3"})))
         words.push_back(word);
     const Outcome outcome = Program(words).wait();
     EXPECT_EQ(outcome.code, 4) << outcome.err;
-    EXPECT_NE(outcome.err.find("0.exr"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("0.pfm"), std::string::npos) << outcome.err;
     EXPECT_EQ(files_in(folder_.path()), before);
 }
 
