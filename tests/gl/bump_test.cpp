@@ -13,6 +13,7 @@
 #include <mirrorball/error.h>
 #include <mirrorball/projections/sphere.h>
 
+#include "bumpy_assets.h"
 #include "gl_test.h"
 #include "seen.h"
 #include "truth_maps.h"
@@ -26,24 +27,6 @@ std::shared_ptr<const BumpTexels> texels_of(const HeightMap& relief) {
     Image heights(1, 1, 1);
     *heights.at(0, 0) = 1;
     return std::make_shared<const BumpTexels>(BumpTexels{slopes(relief), heights});
-}
-
-// What load_assets() would have loaded, and a level and a slanted relief.
-std::shared_ptr<SceneAssets> bumpy_assets(const EnvironmentMap& environment,
-                                          std::initializer_list<BumpMap> bumps) {
-    auto assets = assets_in(environment);
-    for (auto& [name, mesh] : assets->meshes) mesh = with_tangents(std::move(mesh));
-    for (const BumpMap& bump : bumps) {
-        if (moves(bump)) continue;
-        const HeightMap relief = make_bump(bump.source, bump.size, bump.size);
-        BumpTexels texels{slopes(relief), relief.heights};
-        const auto values = texels.heights.values();
-        const auto [low_at, high_at] = std::minmax_element(values.begin(), values.end());
-        const float low = *low_at, span = *high_at - low;
-        for (float& value : values) value = span > 0 ? (value - low) / span : 1;
-        assets->bumps[bump_key(bump)] = std::make_shared<const BumpTexels>(std::move(texels));
-    }
-    return assets;
 }
 
 BumpMap bump_of(const std::string& source, int size = 64) {
@@ -307,7 +290,7 @@ TEST_F(ClassicBump, LightsComeFromALightMap) {
             // has kinks, it is off by what a bilinear filter makes of them, in the dark.
             const Difference d = compare(renderer, *assets, scene);
             EXPECT_LT(d.mean, 0.3 / 255) << lobe << " at " << time;
-            EXPECT_LT(d.largest_linear, 0.02) << lobe << " at " << time;
+            EXPECT_LT(d.largest_linear, 0.04) << lobe << " at " << time;
 
             // Moved lights are the same as lights that were there from the start.
             Renderer fresh(assets);
