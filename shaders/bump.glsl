@@ -25,18 +25,39 @@ vec2 bump_place(vec2 texture_coordinate) {
     return texture_coordinate * u_bump_repeat + u_bump_offset;
 }
 
+#if BUMP_FILTER == VARIANCE
+// Along the longer side of what a pixel sees there are several places, each looked up as wide as the
+// shorter side: where the surface is seen at a grazing angle nothing gets blurred across. What their
+// slopes differ by is variance, too.
+Bump bump_at(vec2 place, vec2 place_dx, vec2 place_dy) {
+    const float kMostPlaces = 8.0;
+    vec2 size = vec2(textureSize(u_bump_map, 0));
+    float along_x = length(place_dx * size), along_y = length(place_dy * size);
+    bool is_x = along_x > along_y;
+    vec2 longer = is_x ? place_dx : place_dy, shorter = is_x ? place_dy : place_dx;
+    float ratio = max(along_x, along_y) / max(min(along_x, along_y), 1e-6);
+    float count = along_x + along_y > 0.0 ? clamp(ceil(ratio), 1.0, kMostPlaces) : 1.0;
+    vec3 sum = vec3(0.0);  // of slopes, and of their squares over all directions
+    for (float i = 0.0; i < count; ++i) {
+        vec2 there = place + ((i + 0.5) / count - 0.5) * longer;
+        vec3 texel = textureGrad(u_bump_map, there, longer / count, shorter).rgb;
+        sum += vec3(texel.rg, texel.b + 0.5 * dot(texel.rg, texel.rg));
+    }
+    sum /= count;
+    float variance = max(0.0, sum.z - 0.5 * dot(sum.xy, sum.xy));
+    float height = textureGrad(u_bump_map, place, place_dx, place_dy).a;
+    return Bump(sum.xy * u_bump_strength, variance * u_bump_strength * u_bump_strength, height);
+}
+#else
 Bump bump_at(vec2 place, vec2 place_dx, vec2 place_dy) {
 #if BUMP_FILTER == NONE
     vec4 texel = textureLod(u_bump_map, place, 0.0);
 #else
     vec4 texel = textureGrad(u_bump_map, place, place_dx, place_dy);
 #endif
-    float variance = 0.0;
-#if BUMP_FILTER == VARIANCE
-    variance = texel.b * u_bump_strength * u_bump_strength;
-#endif
-    return Bump(texel.rg * u_bump_strength, variance, texel.a);
+    return Bump(texel.rg * u_bump_strength, 0.0, texel.a);
 }
+#endif
 
 // Slopes of a normal distribution are Beckmann's with alpha^2 = 2 variance; a GGX lobe has long
 // tails, and the same median with ln 2 of that.
