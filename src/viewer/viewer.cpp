@@ -116,7 +116,7 @@ class Viewer::Impl {
     void set(const Scene& scene);
     void open(const Scene& scene, const fs::path& folder);
     void show_environment(Scene scene, LoadedMap map);
-    void draw(int width, int height);
+    void draw(int width, int height, int left, int bottom);
 
     [[nodiscard]] double usual_exposure() const { return usual_exposure_; }
     [[nodiscard]] double aspect() const {
@@ -153,7 +153,7 @@ class Viewer::Impl {
     void take_environment(const LoadedMap& loaded);
     [[nodiscard]] bool has_changed() const;
     void draw_side(Side& side, Method method, bool again);
-    void show();
+    void show(int left, int bottom);
 
     Axes environment_axes_;  // of the environment before it is turned
     double usual_exposure_ = 1;
@@ -238,15 +238,16 @@ void Viewer::Impl::draw_side(Side& side, Method method, bool again) {
     side.picture->add(*side.renderer, scene, options_.sample_count, programs_);
 }
 
-void Viewer::Impl::show() {
+void Viewer::Impl::show(int left, int bottom) {
     using namespace gl;
     static constexpr const char* kShow[] = {"SHOW ONE", "SHOW WIPE", "SHOW DIFFERENCE"};
-    glViewport(0, 0, width_, height_);
+    glViewport(left, bottom, width_, height_);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     const Program& program =
         programs_.get("full.vert", "show.frag", {kShow[static_cast<int>(comparison_.showing)]});
     program.use();
+    program.set("u_origin", Imath::V2f(static_cast<float>(left), static_cast<float>(bottom)));
     sides_[0].picture->texture().bind(0);
     program.set("u_first", 0);
     if (comparison_.showing != Showing::one) {
@@ -260,7 +261,7 @@ void Viewer::Impl::show() {
     check("showing the picture");
 }
 
-void Viewer::Impl::draw(int width, int height) {
+void Viewer::Impl::draw(int width, int height, int left, int bottom) {
     if (width != width_ || height != height_) {
         width_ = width, height_ = height;
         for (Side& side : sides_) side.picture.reset();
@@ -285,7 +286,7 @@ void Viewer::Impl::draw(int width, int height) {
     drawn_ = {scene_, comparison_.other, assets_};
     smooth_ = sides_[0].picture->is_smooth(options_.sample_count) &&
               (!two || sides_[1].picture->is_smooth(options_.sample_count));
-    show();
+    show(left, bottom);
 }
 
 Viewer::Viewer() : Viewer(usual_scene(), {}, {}) {
@@ -475,8 +476,8 @@ void Viewer::frame_all(double aspect) {
                            shown.camera.field_of_view);
 }
 
-void Viewer::draw(int width, int height) {
-    impl_->draw(width, height);
+void Viewer::draw(int width, int height, int left, int bottom) {
+    impl_->draw(width, height, left, bottom);
 }
 
 bool Viewer::is_smooth() const {
