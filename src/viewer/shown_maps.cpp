@@ -72,6 +72,7 @@ const ScreenPicture& ShownMaps::picture(MapContent content, Projection projectio
     const double exposure = content == MapContent::diffuse ? look.exposure / kPi : look.exposure;
     kept = {look,
             on_screen(map_picture(turned, projection, look.axes, height), exposure, look.tone_map)};
+    kept.picture.version = ++last_version_;
     return kept.picture;
 }
 

@@ -15,9 +15,9 @@ struct ShownMap {
     Projection projection;
     const char* title;
 };
-constexpr ShownMap kMaps[] = {{Projection::cube, "cube, unfolded"},
-                              {Projection::sphere, "sphere map"},
-                              {Projection::dual_paraboloid, "dual paraboloid"},
+constexpr ShownMap kMaps[] = {{Projection::cube, "cube"},
+                              {Projection::sphere, "sphere"},
+                              {Projection::dual_paraboloid, "two paraboloids"},
                               {Projection::equirect, "panorama"},
                               {Projection::octahedral, "octahedral"},
                               {Projection::angular, "angular"}};

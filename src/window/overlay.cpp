@@ -185,7 +185,7 @@ void help_text(Session& session) {
     ImGui::SetNextWindowPos({f(area.left + area.width / 2.0), f(area.top + area.height / 2.0)},
                             ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, f(8 * session.scale));
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, kShade);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(14, 16, 20, 240));
     ImGui::Begin("##help", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);

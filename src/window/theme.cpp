@@ -54,8 +54,9 @@ void set_colors(ImGuiStyle& style) {
     set(ImGuiCol_Button, grey(0.2f));
     set(ImGuiCol_ButtonHovered, grey(0.27f));
     set(ImGuiCol_ButtonActive, quiet);
-    set(ImGuiCol_SliderGrab, accent);
-    set(ImGuiCol_SliderGrabActive, {1, 0.72f, 0.35f, 1});
+    // Numbers are written over it.
+    set(ImGuiCol_SliderGrab, {0.62f, 0.4f, 0.15f, 1});
+    set(ImGuiCol_SliderGrabActive, {0.75f, 0.48f, 0.17f, 1});
     set(ImGuiCol_CheckMark, accent);
     set(ImGuiCol_Separator, grey(0.2f));
     set(ImGuiCol_ScrollbarBg, grey(0.085f));
