@@ -188,14 +188,8 @@ void Viewer::Impl::set(const Scene& scene) {
         return;
     }
     const Axes axes = turned(environment_axes_, scene.environment);
-    const bool is_all_there =
-        axes == assets_->environment.axes &&
-        std::all_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
-            const std::string& map = object.material.base_color_map;
-            return assets_->meshes.count(object.mesh) > 0 &&
-                   (map.empty() || assets_->pictures.count(map) > 0);
-        });
-    if (is_all_there) return adopt(scene, assets_);
+    if (axes == assets_->environment.axes && is_loaded(scene, *assets_))
+        return adopt(scene, assets_);
     SceneAssets assets = *assets_;
     load_missing(assets, scene, folder_, asset_options());
     assets.environment.axes = axes;
@@ -204,7 +198,9 @@ void Viewer::Impl::set(const Scene& scene) {
 
 void Viewer::Impl::show_environment(Scene scene, LoadedMap map) {
     SceneAssets assets;
-    if (assets_) assets.meshes = assets_->meshes, assets.pictures = assets_->pictures;
+    assets.meshes = assets_->meshes;
+    assets.pictures = assets_->pictures;
+    assets.bumps = assets_->bumps;
     load_missing(assets, scene, folder_, asset_options());
     take_environment(map);
     assets.environment = std::move(map.map);
