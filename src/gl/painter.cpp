@@ -228,6 +228,20 @@ Mesh moved(const Mesh& mesh, const Transform& transform) {
     return result;
 }
 
+// The level of a cube with such faces whose texels are as large as pixels, if it is one for the
+// whole picture: of a cube's own faces, and where no texel, not the smallest, in a face's corner,
+// is smaller than the largest pixel, in the picture's middle.
+std::optional<float> known_level(int face_size, const Shot& shot) {
+    if (shot.face_size > 0)
+        return std::log2(static_cast<float>(face_size) / static_cast<float>(shot.face_size));
+    if (shot.height == 0) return std::nullopt;
+    const Imath::M33d& ray = shot.views[0].ray;
+    const double pixel = 2 * Vec3d(ray[1][0], ray[1][1], ray[1][2]).length() / shot.height;
+    const double texel = 2.0 / face_size;
+    const bool is_magnified = pixel * pixel <= texel * texel / std::pow(3, 1.5);
+    return is_magnified ? std::optional(0.0f) : std::nullopt;
+}
+
 // One of a layered shot's views for each face, else one for all.
 void set_to_clip(const Program& program, const Shot& shot) {
     if (shot.layered()) {
@@ -463,9 +477,10 @@ void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     Definitions definitions = {fmt::format("PROXY {}", glsl_name(environment.proxy)),
                                std::string(glsl_name(shot.output))};
     if (plain) definitions.emplace_back("PLAIN");
-    // Texels of a cube's face are those of the environment's own cube, or of one of its levels.
     const bool has_proxy = !std::holds_alternative<std::monostate>(environment.proxy);
-    if (shot.face_size > 0 && !has_proxy) definitions.emplace_back("LEVEL_KNOWN");
+    const Texture& cube = background_for(scene);
+    const std::optional<float> level = has_proxy ? std::nullopt : known_level(cube.width, shot);
+    if (level) definitions.emplace_back("LEVEL_KNOWN");
     if (shot.layered()) definitions.emplace_back("SIX_VIEWS");
     const Program& program = programs_.get("background.vert", "background.frag", definitions,
                                            shot.layered() ? "background.geom" : "");
@@ -475,11 +490,8 @@ void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     program.set("u_background", environment.background_color);
     program.set("u_intensity", static_cast<float>(environment.intensity));
     program.set("u_to_map", to_map_matrix(default_axes(Projection::cube)));
-    const Texture& cube = background_for(scene);
     cube.bind(kMirrorUnit);
-    if (shot.face_size > 0)
-        program.set("u_level",
-                    std::log2(static_cast<float>(cube.width) / static_cast<float>(shot.face_size)));
+    if (level) program.set("u_level", *level);
     program.set("u_mirror_map", kMirrorUnit);
     set_proxy(program, environment.proxy, environment.captured_at);
     set_display(program, scene);

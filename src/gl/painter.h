@@ -35,6 +35,7 @@ struct Shot {
     Output output = Output::display;
     /// The edge in texels if it is of faces of a cube, in the default axes.
     int face_size = 0;
+    int height = 0;  ///< of the picture in pixels, if it is for a screen; else 0
 
     [[nodiscard]] bool layered() const { return views.size() > 1; }
 };

@@ -159,7 +159,7 @@ void Renderer::Impl::draw(const Scene& scene, int width, int height, const Imath
     const View view = view_of(scene.camera, static_cast<double>(width) / height,
                               {2 * shift.x / width, 2 * shift.y / height});
     glViewport(0, 0, width, height);
-    draw_scene(scene, {{&view, 1}, Output::display});
+    draw_scene(scene, {{&view, 1}, Output::display, 0, height});
 }
 
 Image Renderer::Impl::picture(const Scene& scene, const PictureOptions& options) {
@@ -173,7 +173,8 @@ Image Renderer::Impl::picture(const Scene& scene, const PictureOptions& options)
         const View view = view_of(scene.camera, static_cast<double>(width) / height,
                                   {2 * shift.x / width, 2 * shift.y / height});
         target_->bind();
-        draw_scene(scene, {{&view, 1}, options.display ? Output::display : Output::radiance});
+        draw_scene(scene,
+                   {{&view, 1}, options.display ? Output::display : Output::radiance, 0, height});
         Image one = target_->read(3);
         if (sum.empty()) {
             sum = std::move(one);

@@ -409,14 +409,20 @@ void Viewer::save_scene(const fs::path& path) const {
         const bool is_inside = !relative.empty() && *relative.begin() != "..";
         return (is_inside ? relative : there).string();
     };
+    const auto set_file = [&](std::string& name, const auto& builtin_list) {
+        const bool is_builtin =
+            std::any_of(builtin_list.begin(), builtin_list.end(),
+                        [&](const auto& builtin) { return builtin.name == name; });
+        if (!name.empty() && !is_builtin) name = from_target(name);
+    };
+    const std::vector<BuiltinMesh> none;
     Scene saved = scene();
     for (SceneObject& object : saved.objects) {
-        const std::vector<BuiltinMesh> meshes = builtin_meshes();
-        if (std::none_of(meshes.begin(), meshes.end(),
-                         [&](const BuiltinMesh& mesh) { return mesh.name == object.mesh; }))
-            object.mesh = from_target(object.mesh);
-        std::string& map = object.material.base_color_map;
-        if (!map.empty()) map = from_target(map);
+        Material& material = object.material;
+        set_file(object.mesh, builtin_meshes());
+        set_file(material.base_color_map, none);
+        set_file(material.bump.source, bump_sources());
+        if (material.floor) set_file(material.floor->color_map, none);
     }
     std::string& source = saved.environment.source;
     if (!source.starts_with("builtin:")) {
