@@ -44,8 +44,7 @@ TEST(MapPicture, ShowsEachDirectionAtItsPlace) {
         int seen = 0;
         for (const Vec3d& d : directions(500)) {
             const MapPlace place = place_on_map(projection, turned, d);
-            ASSERT_GE(place.x, 0), ASSERT_LE(place.x, 1);
-            ASSERT_GE(place.y, 0), ASSERT_LE(place.y, 1);
+            ASSERT_TRUE(place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1);
             const int x =
                 std::min(static_cast<int>(place.x * picture.width()), picture.width() - 1);
             const int y =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 
+#include <mirrorball/error.h>
 #include <mirrorball/io.h>
 #include <mirrorball/material_presets.h>
 #include <mirrorball/scene_file.h>
@@ -27,10 +28,20 @@ class ViewerTest : public gl::GlTest {
         SceneObject object;
         object.material = preset_material(material);
         scene.objects.push_back(object);
-        scene.environment.source = "builtin:axes";
+        scene.environment.source = chart();
         scene.camera.eye = {1.5, 1, 4};
         scene.map_size = 64;
         return scene;
+    }
+    // Directions in colours: small, since built-in environments take a second to draw.
+    static std::string chart() {
+        static const TemporaryFolder folder;
+        static const std::string name = [] {
+            const std::string path = (folder / "chart.hdr").string();
+            write_map(path, gl::builtin_environment("axes"));
+            return path;
+        }();
+        return name;
     }
     static Viewer make_viewer(const Scene& scene, int samples = 1) {
         return Viewer(scene, {}, {.sample_count = samples});
@@ -213,7 +224,7 @@ TEST_F(ViewerTest, HoverSeesWhatThePixelSees) {
                     ASSERT_NEAR(hover.normal.length(), 1, 1e-9);
                     continue;
                 }
-                ASSERT_NEAR((hover.normal - seen.n).length(), 0, 1e-4);
+                ASSERT_NEAR((hover.normal - seen.n).length(), 0, 1e-3);
                 ASSERT_NEAR((hover.reflected - seen.r()).length(), 0, 1e-3);
                 if (material == std::string("glass")) {
                     ASSERT_TRUE(hover.refracted);
@@ -249,7 +260,7 @@ TEST_F(ViewerTest, RubbishIsToldAndChangesNothing) {
         {write("broken.json", "{\"objects\": 1}"), "broken.json"},
         {write("names.json", R"({"objects": [{"mesh": "none.obj"}]})"), "none.obj"},
         {write("lost.json", R"({"environment": {"source": "lost.hdr"}})"), "lost.hdr"},
-        {folder.path(), folder.path().filename().c_str()},
+        {folder.path(), "is a folder"},
     };
     for (const auto& [path, says] : rubbish) {
         const Dropped dropped = viewer.drop(path);
