@@ -12,6 +12,7 @@
 #include <mirrorball/resample.h>
 
 #include "paraboloid_matrix.h"
+#include "same_assets.h"
 
 namespace mirrorball::gl {
 namespace {
@@ -301,6 +302,19 @@ double Painter::exposure_for(const Scene& scene) {
     if (scene.exposure <= 0 && !usual_exposure_)
         usual_exposure_ = usual_exposure(assets_->environment);
     return exposure_of(scene, usual_exposure_.value_or(1));
+}
+
+void Painter::set_assets(std::shared_ptr<const SceneAssets> assets) {
+    std::erase_if(buffers_, [&](const auto& buffers) {
+        return !is_same(assets_->meshes, assets->meshes, buffers.first);
+    });
+    if (!is_same(assets_->environment, assets->environment)) {
+        background_.reset();
+        usual_exposure_.reset();
+    }
+    textures_.set_assets(assets);
+    bumps_.set_assets(assets);
+    assets_ = std::move(assets);
 }
 
 const MeshBuffers& Painter::buffers_of(const SceneObject& object) {
