@@ -93,6 +93,22 @@ std::string_view glsl_name(const Proxy& proxy) {
     return "NO_PROXY";
 }
 
+std::string_view glsl_name(ToneMap tone_map) {
+    switch (tone_map) {
+        case ToneMap::none:
+            return "NO_TONE_MAP";
+        case ToneMap::reinhard:
+            return "REINHARD";
+        case ToneMap::aces:
+            return "ACES";
+        case ToneMap::agx:
+            return "AGX";
+        case ToneMap::film:
+            return "FILM";
+    }
+    return {};
+}
+
 std::string_view glsl_name(Output output) {
     switch (output) {
         case Output::display:
@@ -150,14 +166,21 @@ void add_bump_definitions(Definitions& definitions, const BumpMap& bump, const L
         definitions.emplace_back("HAS_ROUGH_MAP");
 }
 
+void add_output(const Scene& scene, const Shot& shot, Definitions& definitions) {
+    definitions.emplace_back(glsl_name(shot.output));
+    if (shot.output == Output::display)
+        definitions.push_back(fmt::format("TONE_MAP {}", glsl_name(scene.tone_map)));
+}
+
 // What a program needs to know when it is compiled, and no more: what differs from object to object
 // only by numbers shares one.
 Definitions definitions_for(const Scene& scene, const Material& material, const LookupMaps& maps,
                             int pass, const Shot& shot) {
-    Definitions definitions = {
-        fmt::format("METHOD {}", glsl_name(maps.method)), fmt::format("PASS {}", pass),
-        fmt::format("COUPLING {}", glsl_name(material.coupling)),
-        fmt::format("PROXY {}", glsl_name(maps.proxy)), std::string(glsl_name(shot.output))};
+    Definitions definitions = {fmt::format("METHOD {}", glsl_name(maps.method)),
+                               fmt::format("PASS {}", pass),
+                               fmt::format("COUPLING {}", glsl_name(material.coupling)),
+                               fmt::format("PROXY {}", glsl_name(maps.proxy))};
+    add_output(scene, shot, definitions);
     if (material.mirror > 0) definitions.emplace_back("HAS_MIRROR");
     if (material.glossy > 0) definitions.emplace_back("HAS_GLOSSY");
     if (material.diffuse > 0) definitions.emplace_back("HAS_DIFFUSE");
@@ -325,7 +348,6 @@ const MeshBuffers& Painter::buffers_of(const SceneObject& object) {
 
 void Painter::set_display(const Program& program, const Scene& scene) {
     program.set("u_exposure", static_cast<float>(exposure_for(scene)));
-    program.set("u_tone_map", static_cast<int>(scene.tone_map));
 }
 
 void Painter::set_material(const Program& program, const Material& material) {
@@ -488,8 +510,8 @@ void Painter::draw_object(const Scene& scene, const SceneObject& object, const L
 
 void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     const SceneEnvironment& environment = scene.environment;
-    Definitions definitions = {fmt::format("PROXY {}", glsl_name(environment.proxy)),
-                               std::string(glsl_name(shot.output))};
+    Definitions definitions = {fmt::format("PROXY {}", glsl_name(environment.proxy))};
+    add_output(scene, shot, definitions);
     if (plain) definitions.emplace_back("PLAIN");
     const bool has_proxy = !std::holds_alternative<std::monostate>(environment.proxy);
     const Texture& cube = background_for(scene);

@@ -177,7 +177,8 @@ void Viewer::Impl::adopt(const Scene& scene, std::shared_ptr<const SceneAssets> 
     scene_ = scene;
     if (assets != assets_) {
         assets_ = std::move(assets);
-        for (Side& side : sides_) side.renderer.reset();
+        for (Side& side : sides_)
+            if (side.renderer) side.renderer->set_assets(assets_);
     }
     selected_ = std::min(selected_, scene_.objects.empty() ? 0 : scene_.objects.size() - 1);
 }
