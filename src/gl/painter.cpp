@@ -113,6 +113,8 @@ std::string_view glsl_name(Output output) {
     switch (output) {
         case Output::display:
             return "DISPLAY";
+        case Output::screen:
+            return "SCREEN";
         case Output::radiance:
             return "RADIANCE";
         case Output::half_floats:
@@ -168,7 +170,7 @@ void add_bump_definitions(Definitions& definitions, const BumpMap& bump, const L
 
 void add_output(const Scene& scene, const Shot& shot, Definitions& definitions) {
     definitions.emplace_back(glsl_name(shot.output));
-    if (shot.output == Output::display)
+    if (shot.output == Output::display || shot.output == Output::screen)
         definitions.push_back(fmt::format("TONE_MAP {}", glsl_name(scene.tone_map)));
 }
 

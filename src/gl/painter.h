@@ -22,7 +22,8 @@
 namespace mirrorball::gl {
 
 enum class Output {
-    display,      ///< tone mapped
+    display,      ///< tone mapped, linear light
+    screen,       ///< the same, encoded as sRGB
     radiance,     ///< as it is
     half_floats,  ///< radiance that a half float holds: no NaN, nothing negative or infinite
 };

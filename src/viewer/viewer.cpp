@@ -241,14 +241,17 @@ void Viewer::Impl::show(int left, int bottom) {
     glViewport(left, bottom, width_, height_);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
-    const Program& program =
-        programs_.get("full.vert", "show.frag", {kShow[static_cast<int>(comparison_.showing)]});
+    const bool two = comparison_.showing != Showing::one;
+    Definitions definitions = {kShow[static_cast<int>(comparison_.showing)]};
+    if (sides_[0].picture->is_encoded()) definitions.emplace_back("FIRST_ENCODED");
+    if (two && sides_[1].picture->is_encoded()) definitions.emplace_back("SECOND_ENCODED");
+    const Program& program = programs_.get("full.vert", "show.frag", definitions);
     program.use();
     program.set("u_origin", Imath::V2f(static_cast<float>(left), static_cast<float>(bottom)));
-    sides_[0].picture->texture().bind(0);
+    sides_[0].picture->bind_texture(0);
     program.set("u_first", 0);
-    if (comparison_.showing != Showing::one) {
-        sides_[1].picture->texture().bind(1);
+    if (two) {
+        sides_[1].picture->bind_texture(1);
         program.set("u_second", 1);
         program.set("u_wipe", static_cast<float>(comparison_.wipe * width_));
         program.set("u_full_scale", static_cast<float>(comparison_.full_scale));
