@@ -493,9 +493,10 @@ void Painter::draw_object(const Scene& scene, const SceneObject& object, const L
     program.set("u_handedness", handedness(to_world));
     set_to_clip(program, shot);
     program.set("u_eye", shot.views[0].eye);
+    // What is made when it is first asked for takes the first unit for that, so maps come last.
     set_material(program, object.material);
-    set_maps(program, object.material, maps);
     if (has_bump(object.material, maps)) set_bump(program, object.material.bump, scene.time);
+    set_maps(program, object.material, maps);
     if (has_light_map) {
         light_map_->texture().bind(kLightMapUnit);
         program.set("u_light_map", kLightMapUnit);
