@@ -30,7 +30,7 @@ struct Options {
     int samples = 8, frames = 0;
     double scale = 0;
     std::string screenshot, script;
-    bool panel = false, es = false;
+    bool panel = false;
 };
 
 #ifdef MIRRORBALL_HAS_WINDOW
@@ -80,7 +80,6 @@ int run(const Options& options, const Shared& shared) {
     window_options.width = options.input.width;
     window_options.height = options.input.height;
     window_options.scale = options.scale;
-    window_options.es = options.es;
     // A script without a number of frames ends when it is done.
     window_options.frames = options.frames == 0 && !options.script.empty() ? 1 : options.frames;
     window_options.screenshot = options.screenshot;
@@ -164,8 +163,6 @@ Command view_command(Shared& shared) {
          real_number(options->scale, 0.5, 4)}};
     add_picture_size_options(command, options->input);
     add_scene_options(command, options->input);
-    command.options.push_back(
-        {"--es", "", "draw by OpenGL ES 3, as browsers do", flag(options->es)});
     add_shared_options(command, shared);
     command.notes = {
         "Environments, meshes and scenes can be dropped on the window. It remembers "

@@ -28,32 +28,20 @@ constexpr const char* kAdvice =
     "\"mirrorball render\" draws pictures without a window, and xvfb-run gives programs a screen "
     "that no one sees";
 
-GLFWwindow* try_window(int width, int height, bool es) {
+// Debian's ImGui speaks the desktop's OpenGL only.
+GLFWwindow* open_window(int width, int height) {
     glfwDefaultWindowHints();
-    glfwWindowHint(GLFW_CLIENT_API, es ? GLFW_OPENGL_ES_API : GLFW_OPENGL_API);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, es ? 3 : 4);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, es ? 0 : 5);
-    if (es) {
-        glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
-    } else {
-        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    }
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    return glfwCreateWindow(width, height, "mirrorball", nullptr, nullptr);
-}
-
-// What OpenGL there is: the desktop's, or that of browsers.
-GLFWwindow* open_window(int width, int height, bool es) {
-    std::string tried;
-    if (!es) {
-        if (GLFWwindow* window = try_window(width, height, false)) return window;
-        tried = fmt::format("OpenGL 4.5 ({}), ", last_error());
-    }
-    if (GLFWwindow* window = try_window(width, height, true)) return window;
-    tried += fmt::format("OpenGL ES 3.0 ({})", last_error());
+    if (GLFWwindow* window = glfwCreateWindow(width, height, "mirrorball", nullptr, nullptr))
+        return window;
     throw Error(Errc::unsupported,
-                fmt::format("no window with OpenGL can be opened; tried: {}. {}", tried, kAdvice));
+                fmt::format("no window with OpenGL can be opened; tried: OpenGL 4.5, core profile "
+                            "({}). {}",
+                            last_error(), kAdvice));
 }
 
 // Keys that are no letters, as browsers name them.
@@ -102,14 +90,14 @@ void on_drop(GLFWwindow* window, int count, const char** paths) {
 
 }  // namespace
 
-Desktop::Desktop(int width, int height, bool es, bool vertical_sync) {
+Desktop::Desktop(int width, int height, bool vertical_sync) {
     if (glfwInit() != GLFW_TRUE) {
         throw Error(Errc::unsupported,
                     fmt::format("there is no display to open a window on; tried: {} ({}; {}). {}",
                                 "X11", last_error(), variable("DISPLAY"), kAdvice));
     }
     try {
-        window_ = open_window(width, height, es);
+        window_ = open_window(width, height);
     } catch (...) {
         glfwTerminate();
         throw;

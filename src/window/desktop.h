@@ -18,7 +18,7 @@ struct Events {
 class Desktop {
   public:
     /// \throws Error(Errc::unsupported) naming what was tried
-    Desktop(int width, int height, bool es, bool vertical_sync);
+    Desktop(int width, int height, bool vertical_sync);
     ~Desktop();
     Desktop(const Desktop&) = delete;
     Desktop& operator=(const Desktop&) = delete;

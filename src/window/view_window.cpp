@@ -34,11 +34,11 @@ constexpr double kIdleSeconds = 0.25;
 // ImGui with its backends, as long as the window is there.
 class Interface {
   public:
-    Interface(GLFWwindow* window, bool es) {
+    explicit Interface(GLFWwindow* window) {
         ImGui::CreateContext();
         ImGui::GetIO().IniFilename = nullptr;  // nothing is remembered
         ImGui_ImplGlfw_InitForOpenGL(window, true);
-        ImGui_ImplOpenGL3_Init(es ? "#version 300 es" : "#version 330 core");
+        ImGui_ImplOpenGL3_Init("#version 330 core");
     }
     ~Interface() {
         ImGui_ImplOpenGL3_Shutdown();
@@ -76,8 +76,8 @@ class ViewWindow {
   public:
     ViewWindow(const std::function<Viewer()>& make_viewer, const Options& options)
         : options_(options),
-          desktop_(options.width, options.height, options.es, !is_scripted()),
-          interface_(desktop_.handle(), gl::driver().es),
+          desktop_(options.width, options.height, !is_scripted()),
+          interface_(desktop_.handle()),
           viewer_(make_viewer()),
           session_(viewer_) {
         session_.panel_open = options.panel;
@@ -186,8 +186,15 @@ void ViewWindow::draw_picture() {
     const Area& area = session_.picture;
     if (area.width < 1 || area.height < 1) return;
     const int bottom = height - area.height - static_cast<int>(area.top);
-    session_.attempt(
-        [&] { viewer_.draw(area.width, area.height, static_cast<int>(area.left), bottom); });
+    const auto draw = [&] {
+        viewer_.draw(area.width, area.height, static_cast<int>(area.left), bottom);
+    };
+    // A script has no one to tell.
+    if (is_scripted()) {
+        draw();
+    } else {
+        session_.attempt(draw);
+    }
 }
 
 // Into the framebuffer that is bound.

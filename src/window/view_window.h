@@ -16,7 +16,6 @@ namespace mirrorball::window {
 struct Options {
     int width = 1280, height = 720;    ///< of the picture's pixels
     double scale = 0;                  ///< of text and controls; 0: as the screen says
-    bool es = false;                   ///< OpenGL ES 3, as browsers have it
     int frames = 0;                    ///< ends after so many; 0: when the window is closed
     std::filesystem::path screenshot;  ///< written at the end; or none
     bool panel = true;                 ///< controls and maps are there
