@@ -10,10 +10,7 @@ in vec3 v_back_place, v_normal_back_place;
 #define SHIFTED(st) (st)
 #endif
 uniform sampler2D u_mirror_map, u_glossy_map, u_diffuse_map;
-// The level is that of the surface without bumps, as method sphere has it: where shifts jump, the
-// pixels beside a jump would see far too coarse a one.
-#define LIGHT(map, place, back_place) \
-    textureGrad(map, SHIFTED(place.xy), dFdx(place.xy), dFdy(place.xy)).rgb
+#define LIGHT(map, place, back_place) texture(map, SHIFTED(place.xy)).rgb
 
 #elif METHOD == CUBE_VERTEX
 uniform samplerCube u_mirror_map, u_glossy_map, u_diffuse_map;

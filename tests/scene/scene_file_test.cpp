@@ -158,7 +158,7 @@ TEST(SceneFile, BumpsAndFloorsTakeOverWhatTheOnesTheyAreLikeHave) {
 TEST(SceneFile, HoldsEveryPreset) {
     for (const MaterialPreset& preset : material_presets()) {
         Scene scene;
-        scene.objects.push_back({.name = preset.name, .material = preset.material});
+        scene.objects.emplace_back().material = preset.material;
         EXPECT_EQ(parsed(to_json(scene)), scene) << preset.name;
     }
 }
