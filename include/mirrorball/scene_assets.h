@@ -42,6 +42,20 @@ struct AssetOptions {
 [[nodiscard]] SceneAssets load_assets(const Scene& scene, const std::filesystem::path& folder,
                                       const AssetOptions& options = {});
 
+// The parts of it, for those who load again and again.
+
+/// Has `assets` all that the scene names but the environment?
+[[nodiscard]] bool is_loaded(const Scene& scene, const SceneAssets& assets);
+/// What it has not got. \throws Error as above
+void load_missing(SceneAssets& assets, const Scene& scene, const std::filesystem::path& folder,
+                  const AssetOptions& options = {});
+/// The environment as its file has it, not turned yet. \throws Error as read_map() does
+[[nodiscard]] LoadedMap load_environment(const SceneEnvironment& environment,
+                                         const std::filesystem::path& folder,
+                                         const AssetOptions& options = {});
+/// The axes of such a map as the scene turns it.
+[[nodiscard]] Axes turned(const Axes& axes, const SceneEnvironment& environment);
+
 /// Whether a bump map's source changes with time.
 [[nodiscard]] bool moves(const BumpMap& bump);
 /// What its texels depend on besides the time.

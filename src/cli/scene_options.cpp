@@ -160,11 +160,6 @@ void check_map_memory(int size, const Shared& shared) {
     check_memory(kBytesPerTexel * 6 * edge * edge, fmt::format("a map of size {}", size), shared);
 }
 
-// Only where there is a scene file do names in the scene mean files beside it.
-std::filesystem::path folder_of(const SceneInput& input) {
-    return std::filesystem::path(input.file).parent_path();
-}
-
 // What a scene file names is beside it; what the command line names is here.
 std::string from_here(const std::string& source) {
     if (source.starts_with("builtin:")) return source;
@@ -310,7 +305,11 @@ void add_picture_size_options(Command& command, SceneInput& input) {
     command.options.push_back({"--height", "N", "[720]", whole_number(input.height, 1, 65536)});
 }
 
-LoadedScene load_scene(const SceneInput& input, const Shared& shared) {
+std::filesystem::path folder_of(const SceneInput& input) {
+    return std::filesystem::path(input.file).parent_path();
+}
+
+Scene scene_of(const SceneInput& input) {
     const bool has_file = !input.file.empty();
     if (has_file &&
         (!input.mesh.empty() || !input.material.empty() || !input.material_edits.empty())) {
@@ -319,20 +318,27 @@ LoadedScene load_scene(const SceneInput& input, const Shared& shared) {
                                 "object is; {} has objects of its own",
                                 input.file));
     }
-    LoadedScene loaded;
-    loaded.scene = has_file ? read_scene(input.file) : Scene{};
-    if (!has_file) loaded.scene.objects.push_back(only_object(input));
-    std::string& source = loaded.scene.environment.source;
+    Scene scene = has_file ? read_scene(input.file) : Scene{};
+    if (!has_file) scene.objects.push_back(only_object(input));
     if (!input.environment.empty())
-        source = has_file ? from_here(input.environment) : input.environment;
-    for (const auto& edit : input.edits) edit(loaded.scene);
+        scene.environment.source = has_file ? from_here(input.environment) : input.environment;
+    for (const auto& edit : input.edits) edit(scene);
+    return scene;
+}
+
+void place_camera_as_asked(Scene& scene, const SceneAssets& assets, const SceneInput& input) {
+    const bool is_asked = input.file.empty() || !input.camera.empty();
+    if (is_asked && !scene.objects.empty()) place_camera(scene, assets, input);
+}
+
+LoadedScene load_scene(const SceneInput& input, const Shared& shared) {
+    LoadedScene loaded{scene_of(input), nullptr};
     check_map_memory(loaded.scene.map_size, shared);
     AssetOptions options;
     options.memory_limit = shared.memory_limit;
     loaded.assets =
         std::make_shared<const SceneAssets>(load_assets(loaded.scene, folder_of(input), options));
-    if ((!has_file || !input.camera.empty()) && !loaded.scene.objects.empty())
-        place_camera(loaded.scene, *loaded.assets, input);
+    place_camera_as_asked(loaded.scene, *loaded.assets, input);
     return loaded;
 }
 
