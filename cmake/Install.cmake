@@ -11,7 +11,7 @@ install(EXPORT mirrorball-targets FILE mirrorballTargets.cmake
     NAMESPACE mirrorball:: DESTINATION ${package_folder})
 if(MIRRORBALL_BUILD_RENDERER)
     # Components of the package, so that who wants none of them needs none of what they use.
-    foreach(component scene gl)
+    foreach(component scene gl viewer)
         set_target_properties(mirrorball_${component} PROPERTIES EXPORT_NAME ${component})
         install(TARGETS mirrorball_${component} EXPORT mirrorball-${component}-targets)
         install(EXPORT mirrorball-${component}-targets FILE mirrorball-${component}Targets.cmake

@@ -32,4 +32,16 @@ struct AssetOptions {
 [[nodiscard]] SceneAssets load_assets(const Scene& scene, const std::filesystem::path& folder,
                                       const AssetOptions& options = {});
 
+// The parts of it, for those who load again and again.
+
+/// Meshes and pictures that the scene names and `assets` has not got. \throws Error as above
+void load_missing(SceneAssets& assets, const Scene& scene, const std::filesystem::path& folder,
+                  const AssetOptions& options = {});
+/// The environment as its file has it, not turned yet. \throws Error as read_map() does
+[[nodiscard]] LoadedMap load_environment(const SceneEnvironment& environment,
+                                         const std::filesystem::path& folder,
+                                         const AssetOptions& options = {});
+/// The axes of such a map as the scene turns it.
+[[nodiscard]] Axes turned(const Axes& axes, const SceneEnvironment& environment);
+
 }  // namespace mirrorball

@@ -65,7 +65,7 @@ class Renderer::Impl {
 
     Image picture(const Scene& scene, const PictureOptions& options);
     /// Makes the scene's maps, then one picture.
-    void draw(const Scene& scene, int width, int height);
+    void draw(const Scene& scene, int width, int height, const Imath::V2d& shift = {0, 0});
     SurfaceBuffer surfaces(const Scene& scene, int width, int height, const Imath::V2d& shift);
     EnvironmentMap capture(const Scene& scene, const Vec3d& position, int size);
     std::vector<double> time_frames(const Scene& scene, int width, int height, int count);
@@ -131,9 +131,10 @@ void Renderer::Impl::draw_scene(const Scene& scene, const Shot& shot) {
     check("drawing");
 }
 
-void Renderer::Impl::draw(const Scene& scene, int width, int height) {
+void Renderer::Impl::draw(const Scene& scene, int width, int height, const Imath::V2d& shift) {
     make_maps(scene);
-    const View view = view_of(scene.camera, static_cast<double>(width) / height);
+    const View view = view_of(scene.camera, static_cast<double>(width) / height,
+                              {2 * shift.x / width, 2 * shift.y / height});
     glViewport(0, 0, width, height);
     draw_scene(scene, {{&view, 1}, Output::display});
 }
@@ -250,8 +251,8 @@ Image Renderer::picture(const Scene& scene, const PictureOptions& options) {
     return impl_->picture(scene, options);
 }
 
-void Renderer::draw(const Scene& scene, int width, int height) {
-    impl_->draw(scene, width, height);
+void Renderer::draw(const Scene& scene, int width, int height, const Imath::V2d& shift) {
+    impl_->draw(scene, width, height, shift);
 }
 
 SurfaceBuffer Renderer::surfaces(const Scene& scene, int width, int height,

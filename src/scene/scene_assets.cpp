@@ -109,15 +109,6 @@ std::string environment_source(const std::string& source, const std::filesystem:
     return result;
 }
 
-EnvironmentMap load_environment(const SceneEnvironment& environment,
-                                const std::filesystem::path& folder, std::uint64_t memory) {
-    MapReadOptions options;
-    options.memory_limit = memory;
-    EnvironmentMap map = read_map(environment_source(environment.source, folder), options).map;
-    map.axes = rotated(map.axes, environment.yaw, environment.pitch, environment.roll);
-    return map;
-}
-
 // Errors get the name of who wanted it in front.
 template <class Load>
 auto loaded_for(const std::string& who, Load&& load) {
@@ -134,12 +125,9 @@ std::string title(const Scene& scene, std::size_t i) {
                         : fmt::format("objects[{}] \"{}\"", i, name);
 }
 
-}  // namespace
-
-SceneAssets load_assets(const Scene& scene, const std::filesystem::path& folder,
-                        const AssetOptions& options) {
-    SceneAssets assets;
-    Budget budget(options.memory_limit);
+// What the scene names and the assets have not got, within the budget.
+void load_within(Budget& budget, SceneAssets& assets, const Scene& scene,
+                 const std::filesystem::path& folder, const AssetOptions& options) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];
         loaded_for(title(scene, i), [&] {
@@ -156,8 +144,37 @@ SceneAssets load_assets(const Scene& scene, const std::filesystem::path& folder,
             }
         });
     }
+}
+
+}  // namespace
+
+void load_missing(SceneAssets& assets, const Scene& scene, const std::filesystem::path& folder,
+                  const AssetOptions& options) {
+    Budget budget(options.memory_limit);
+    load_within(budget, assets, scene, folder, options);
+}
+
+LoadedMap load_environment(const SceneEnvironment& environment, const std::filesystem::path& folder,
+                           const AssetOptions& options) {
+    MapReadOptions read_options;
+    read_options.memory_limit = options.memory_limit;
+    return read_map(environment_source(environment.source, folder), read_options);
+}
+
+Axes turned(const Axes& axes, const SceneEnvironment& environment) {
+    return rotated(axes, environment.yaw, environment.pitch, environment.roll);
+}
+
+SceneAssets load_assets(const Scene& scene, const std::filesystem::path& folder,
+                        const AssetOptions& options) {
+    SceneAssets assets;
+    Budget budget(options.memory_limit);
+    load_within(budget, assets, scene, folder, options);
     loaded_for("environment", [&] {
-        assets.environment = load_environment(scene.environment, folder, budget.left());
+        AssetOptions left = options;
+        left.memory_limit = budget.left();
+        assets.environment = load_environment(scene.environment, folder, left).map;
+        assets.environment.axes = turned(assets.environment.axes, scene.environment);
         budget.spend(bytes_of(assets.environment), scene.environment.source);
     });
     return assets;

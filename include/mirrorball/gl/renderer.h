@@ -50,8 +50,9 @@ class Renderer {
     [[nodiscard]] Image picture(const Scene& scene, const PictureOptions& options = {});
 
     /// One picture, tone mapped linear light, into the framebuffer that is bound, whose size and
-    /// depth buffer the caller cares for.
-    void draw(const Scene& scene, int width, int height);
+    /// depth buffer the caller cares for. What pixels show is moved by `shift` pixels, as
+    /// sample_shift() has it.
+    void draw(const Scene& scene, int width, int height, const Imath::V2d& shift = {0, 0});
 
     /// What the pixels see, at their centres moved by `shift` pixels. For direct.h.
     [[nodiscard]] SurfaceBuffer surfaces(const Scene& scene, int width, int height,

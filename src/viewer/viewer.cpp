@@ -1,0 +1,516 @@
+// The viewer: a scene with what is loaded for it, drawn when something has changed.
+#include <mirrorball/viewer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <mirrorball/error.h>
+#include <mirrorball/gl/renderer.h>
+#include <mirrorball/material_presets.h>
+#include <mirrorball/mesh.h>
+#include <mirrorball/orbit.h>
+#include <mirrorball/scene_file.h>
+#include <mirrorball/tone_map.h>
+
+#include "gl/check.h"
+#include "gl/framebuffer_guard.h"
+#include "hover.h"
+#include "io/file.h"
+#include "shown_maps.h"
+#include "smooth_picture.h"
+#include "viewer_state.h"
+
+namespace mirrorball {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where the program looks from unless it is said, as `mirrorball render` does.
+constexpr double kUsualYaw = 25 * kPi / 180, kUsualPitch = 14 * kPi / 180;
+// One step of a wheel.
+constexpr double kZoomStep = 1.12;
+constexpr double kMostStops = 20;
+
+constexpr std::pair<Showing, std::string_view> kShowings[] = {
+    {Showing::one, "one"}, {Showing::wipe, "wipe"}, {Showing::difference, "difference"}};
+
+Scene usual_scene() {
+    Scene scene;
+    SceneObject object;
+    object.mesh = "teapot";
+    object.material = preset_material("chrome");
+    scene.objects.push_back(object);
+    return scene;
+}
+
+Bounds bounds_of(const Scene& scene, const SceneAssets& assets) {
+    Mesh corners;
+    for (const SceneObject& object : scene.objects) {
+        for (const Vec3f& position : assets.meshes.at(object.mesh).positions)
+            corners.positions.push_back(Vec3f(object.transform.point(Vec3d(position))));
+    }
+    return bounds(corners);
+}
+
+std::string lower_case_ending(const fs::path& path) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return ending;
+}
+
+enum class FileKind { environment, mesh, scene };
+
+FileKind kind_of(const fs::path& path) {
+    const std::string ending = lower_case_ending(path);
+    if (ending == ".obj" || ending == ".gltf" || ending == ".glb") return FileKind::mesh;
+    if (ending == ".json") return FileKind::scene;
+    return FileKind::environment;
+}
+
+std::string size_text(const EnvironmentMap& map) {
+    const int faces = face_count(map.projection);
+    return faces > 1 ? fmt::format("{} x {} x {}", faces, map.width(), map.height())
+                     : fmt::format("{} x {}", map.width(), map.height());
+}
+
+}  // namespace
+
+std::string_view name(Showing showing) {
+    for (const auto& [value, text] : kShowings)
+        if (value == showing) return text;
+    return {};
+}
+
+Showing parse_showing(std::string_view text) {
+    for (const auto& [value, name] : kShowings)
+        if (name == text) return value;
+    throw Error(Errc::usage, fmt::format("\"{}\" is no way to show methods; there are one, wipe "
+                                         "and difference",
+                                         text));
+}
+
+std::string_view name(MapContent content) {
+    switch (content) {
+        case MapContent::environment:
+            return "environment";
+        case MapContent::glossy:
+            return "glossy";
+        case MapContent::diffuse:
+            return "diffuse";
+    }
+    return {};
+}
+
+class Viewer::Impl {
+  public:
+    Impl(const Scene& scene, const fs::path& folder, const Options& options) : options_(options) {
+        open(scene, folder);
+    }
+
+    // The scene and all that is made of its names. Nothing is changed until all of it is there.
+    void set(const Scene& scene);
+    void open(const Scene& scene, const fs::path& folder);
+    void show_environment(Scene scene, LoadedMap map);
+    void draw(int width, int height);
+
+    [[nodiscard]] double usual_exposure() const { return usual_exposure_; }
+    [[nodiscard]] double aspect() const {
+        return height_ > 0 ? static_cast<double>(width_) / height_ : 16.0 / 9;
+    }
+
+    Scene scene_;
+    Comparison comparison_;
+    std::size_t selected_ = 0;
+    fs::path folder_;
+    std::shared_ptr<const SceneAssets> assets_;
+    std::vector<std::string> notes_;
+    Options options_;
+    ShownMaps shown_maps_;
+    bool smooth_ = false;
+
+  private:
+    // What one side of the comparison is drawn with.
+    struct Side {
+        std::optional<gl::Renderer> renderer;
+        std::optional<SmoothPicture> picture;
+    };
+    // All that a picture depends on but the wipe.
+    struct Drawn {
+        Scene scene;
+        Method other;
+        std::shared_ptr<const SceneAssets> assets;
+    };
+
+    [[nodiscard]] AssetOptions asset_options() const {
+        return {.memory_limit = options_.memory_limit};
+    }
+    void adopt(const Scene& scene, std::shared_ptr<const SceneAssets> assets);
+    void take_environment(const LoadedMap& loaded);
+    [[nodiscard]] bool has_changed() const;
+    void draw_side(Side& side, Method method, bool again);
+    void show();
+
+    Axes environment_axes_;  // of the environment before it is turned
+    double usual_exposure_ = 1;
+    Side sides_[2];
+    gl::ProgramCache programs_;
+    gl::VertexArray nothing_;
+    std::optional<Drawn> drawn_;
+    int width_ = 0, height_ = 0;
+};
+
+void Viewer::Impl::take_environment(const LoadedMap& loaded) {
+    environment_axes_ = loaded.map.axes;
+    notes_ = loaded.notes;
+    notes_.insert(notes_.begin(), fmt::format("{}, {} {}", loaded.format,
+                                              name(loaded.map.projection), size_text(loaded.map)));
+    usual_exposure_ = mirrorball::usual_exposure(loaded.map);
+    shown_maps_.set_environment(loaded.map);
+}
+
+void Viewer::Impl::adopt(const Scene& scene, std::shared_ptr<const SceneAssets> assets) {
+    scene_ = scene;
+    if (assets != assets_) {
+        assets_ = std::move(assets);
+        for (Side& side : sides_) side.renderer.reset();
+    }
+    selected_ = std::min(selected_, scene_.objects.empty() ? 0 : scene_.objects.size() - 1);
+}
+
+void Viewer::Impl::set(const Scene& scene) {
+    if (scene.environment.source != scene_.environment.source) {
+        show_environment(scene, load_environment(scene.environment, folder_, asset_options()));
+        return;
+    }
+    const Axes axes = turned(environment_axes_, scene.environment);
+    const bool is_all_there =
+        axes == assets_->environment.axes &&
+        std::all_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
+            const std::string& map = object.material.base_color_map;
+            return assets_->meshes.count(object.mesh) > 0 &&
+                   (map.empty() || assets_->pictures.count(map) > 0);
+        });
+    if (is_all_there) return adopt(scene, assets_);
+    SceneAssets assets = *assets_;
+    load_missing(assets, scene, folder_, asset_options());
+    assets.environment.axes = axes;
+    adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
+}
+
+void Viewer::Impl::show_environment(Scene scene, LoadedMap map) {
+    SceneAssets assets;
+    if (assets_) assets.meshes = assets_->meshes, assets.pictures = assets_->pictures;
+    load_missing(assets, scene, folder_, asset_options());
+    take_environment(map);
+    assets.environment = std::move(map.map);
+    assets.environment.axes = turned(environment_axes_, scene.environment);
+    adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
+}
+
+void Viewer::Impl::open(const Scene& scene, const fs::path& folder) {
+    SceneAssets assets;
+    load_missing(assets, scene, folder, asset_options());
+    LoadedMap map = load_environment(scene.environment, folder, asset_options());
+    take_environment(map);
+    assets.environment = std::move(map.map);
+    assets.environment.axes = turned(environment_axes_, scene.environment);
+    folder_ = folder;
+    selected_ = 0;
+    adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
+}
+
+bool Viewer::Impl::has_changed() const {
+    return !drawn_ || drawn_->assets != assets_ || !(drawn_->scene == scene_);
+}
+
+void Viewer::Impl::draw_side(Side& side, Method method, bool again) {
+    if (!side.renderer) side.renderer.emplace(assets_);
+    if (!side.picture) side.picture.emplace(width_, height_);
+    if (again) side.picture->start_again();
+    if (side.picture->is_smooth(options_.sample_count)) return;
+    Scene scene = scene_;
+    scene.method = method;
+    side.picture->add(*side.renderer, scene, options_.sample_count, programs_);
+}
+
+void Viewer::Impl::show() {
+    using namespace gl;
+    static constexpr const char* kShow[] = {"SHOW ONE", "SHOW WIPE", "SHOW DIFFERENCE"};
+    glViewport(0, 0, width_, height_);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    const Program& program =
+        programs_.get("full.vert", "show.frag", {kShow[static_cast<int>(comparison_.showing)]});
+    program.use();
+    sides_[0].picture->texture().bind(0);
+    program.set("u_first", 0);
+    if (comparison_.showing != Showing::one) {
+        sides_[1].picture->texture().bind(1);
+        program.set("u_second", 1);
+        program.set("u_wipe", static_cast<float>(comparison_.wipe * width_));
+        program.set("u_full_scale", static_cast<float>(comparison_.full_scale));
+    }
+    glBindVertexArray(nothing_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    check("showing the picture");
+}
+
+void Viewer::Impl::draw(int width, int height) {
+    if (width != width_ || height != height_) {
+        width_ = width, height_ = height;
+        for (Side& side : sides_) side.picture.reset();
+    }
+    const bool again = has_changed();
+    const bool two = comparison_.showing != Showing::one;
+    try {
+        const gl::FramebufferGuard guard;
+        draw_side(sides_[0], scene_.method, again);
+        if (two) {
+            draw_side(sides_[1], comparison_.other, again || drawn_->other != comparison_.other);
+        } else if (again) {
+            sides_[1].picture.reset();
+        }
+    } catch (const Error&) {
+        if (drawn_) {
+            comparison_.other = drawn_->other;
+            adopt(Scene(drawn_->scene), drawn_->assets);
+        }
+        throw;
+    }
+    drawn_ = {scene_, comparison_.other, assets_};
+    smooth_ = sides_[0].picture->is_smooth(options_.sample_count) &&
+              (!two || sides_[1].picture->is_smooth(options_.sample_count));
+    show();
+}
+
+Viewer::Viewer() : Viewer(usual_scene(), {}, {}) {
+    frame_all(16.0 / 9);
+}
+Viewer::Viewer(const Scene& scene, const fs::path& folder, const Options& options)
+    : impl_(std::make_unique<Impl>(scene, folder, options)) {}
+Viewer::~Viewer() = default;
+Viewer::Viewer(Viewer&&) noexcept = default;
+Viewer& Viewer::operator=(Viewer&&) noexcept = default;
+
+const Scene& Viewer::scene() const {
+    return impl_->scene_;
+}
+
+void Viewer::set_scene(const Scene& scene) {
+    impl_->set(scene);
+}
+
+void Viewer::open_scene(const Scene& scene, const fs::path& folder) {
+    impl_->open(scene, folder);
+}
+
+const fs::path& Viewer::folder() const {
+    return impl_->folder_;
+}
+
+const Comparison& Viewer::comparison() const {
+    return impl_->comparison_;
+}
+
+void Viewer::set_comparison(const Comparison& comparison) {
+    impl_->comparison_ = comparison;
+    impl_->comparison_.wipe = std::clamp(comparison.wipe, 0.0, 1.0);
+    impl_->comparison_.full_scale = std::clamp(comparison.full_scale, 0.001, 1.0);
+}
+
+double Viewer::exposure() const {
+    return exposure_of(impl_->scene_, impl_->usual_exposure());
+}
+
+double Viewer::exposure_stops() const {
+    Scene usual = impl_->scene_;
+    usual.exposure = 0;
+    return std::log2(exposure() / exposure_of(usual, impl_->usual_exposure()));
+}
+
+void Viewer::set_exposure_stops(double stops) {
+    Scene scene = impl_->scene_;
+    scene.exposure = 0;
+    if (std::abs(stops) > 1e-6) {
+        const double usual = exposure_of(scene, impl_->usual_exposure());
+        scene.exposure = usual * std::exp2(std::clamp(stops, -kMostStops, kMostStops));
+    }
+    impl_->set(scene);
+}
+
+std::size_t Viewer::selected() const {
+    return impl_->selected_;
+}
+
+void Viewer::select(std::size_t object) {
+    if (object < impl_->scene_.objects.size()) impl_->selected_ = object;
+}
+
+const SceneAssets& Viewer::assets() const {
+    return *impl_->assets_;
+}
+
+const std::vector<std::string>& Viewer::environment_notes() const {
+    return impl_->notes_;
+}
+
+Dropped Viewer::drop(const fs::path& path) {
+    try {
+        switch (kind_of(path)) {
+            case FileKind::scene: {
+                open_scene(read_scene(path), path.parent_path());
+                return {true, fmt::format("{}: a scene of {} objects", path.filename().string(),
+                                          scene().objects.size())};
+            }
+            case FileKind::mesh: {
+                Scene next = scene();
+                if (next.objects.empty()) next.objects = usual_scene().objects;
+                next.objects[selected()].mesh = fs::absolute(path).string();
+                impl_->set(next);
+                frame_all(impl_->aspect());
+                const Mesh& mesh = assets().meshes.at(scene().objects[selected()].mesh);
+                return {true, fmt::format("{}: {} triangles", path.filename().string(),
+                                          mesh.triangle_count())};
+            }
+            case FileKind::environment: {
+                MapReadOptions options;
+                options.memory_limit = impl_->options_.memory_limit;
+                return drop_environment(fs::absolute(path).string(),
+                                        read_map(path.string(), options));
+            }
+        }
+    } catch (const Error& error) {
+        return {false, error.what()};
+    }
+    return {};
+}
+
+Dropped Viewer::drop_environment(const std::string& name, LoadedMap map) {
+    try {
+        Scene next = scene();
+        next.environment.source = name;
+        next.exposure = 0;
+        impl_->show_environment(std::move(next), std::move(map));
+        return {true,
+                fmt::format("{}: {}", fs::path(name).filename().string(), impl_->notes_.front())};
+    } catch (const Error& error) {
+        return {false, error.what()};
+    }
+}
+
+void Viewer::save_scene(const fs::path& path) const {
+    const fs::path target = fs::absolute(path).parent_path();
+    // Beside the target, or where it is.
+    const auto from_target = [&](const std::string& file) {
+        const fs::path there = fs::absolute(folder() / file).lexically_normal();
+        const fs::path relative = there.lexically_relative(target);
+        const bool is_inside = !relative.empty() && *relative.begin() != "..";
+        return (is_inside ? relative : there).string();
+    };
+    Scene saved = scene();
+    for (SceneObject& object : saved.objects) {
+        const std::vector<BuiltinMesh> meshes = builtin_meshes();
+        if (std::none_of(meshes.begin(), meshes.end(),
+                         [&](const BuiltinMesh& mesh) { return mesh.name == object.mesh; }))
+            object.mesh = from_target(object.mesh);
+        std::string& map = object.material.base_color_map;
+        if (!map.empty()) map = from_target(map);
+    }
+    std::string& source = saved.environment.source;
+    if (!source.starts_with("builtin:")) {
+        // Six faces, perhaps, with commas between them.
+        std::string files;
+        for (std::size_t start = 0; start <= source.size();) {
+            const std::size_t end = std::min(source.find(',', start), source.size());
+            files += (start > 0 ? "," : "") + from_target(source.substr(start, end - start));
+            start = end + 1;
+        }
+        source = files;
+    }
+    const std::string text = to_json(saved);
+    detail::OutputFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+std::string Viewer::state() const {
+    return to_text({scene(), comparison(), selected()});
+}
+
+void Viewer::set_state(std::string_view state) {
+    const ViewerState parsed = parse_viewer_state(state);
+    impl_->set(parsed.scene);
+    set_comparison(parsed.comparison);
+    select(parsed.selected);
+}
+
+void Viewer::orbit(double dx, double dy, int height) {
+    impl_->scene_.camera = orbited(scene().camera, -dx * kPi / height, dy * kPi / height);
+}
+
+void Viewer::pan(double dx, double dy, int height) {
+    impl_->scene_.camera = panned(scene().camera, dx / height, -dy / height);
+}
+
+void Viewer::zoom(double steps) {
+    impl_->scene_.camera = zoomed(scene().camera, std::pow(kZoomStep, -steps));
+}
+
+void Viewer::turn_environment(double dx, int height) {
+    Scene next = scene();
+    double& yaw = next.environment.yaw;
+    yaw = std::remainder(yaw - dx * kPi / height, 2 * kPi);
+    impl_->set(next);
+}
+
+void Viewer::frame_all(double aspect) {
+    Scene& shown = impl_->scene_;
+    if (shown.objects.empty()) return;
+    shown.camera = framing(bounds_of(shown, assets()), aspect, kUsualYaw, kUsualPitch,
+                           shown.camera.field_of_view);
+}
+
+void Viewer::draw(int width, int height) {
+    impl_->draw(width, height);
+}
+
+bool Viewer::is_smooth() const {
+    return impl_->smooth_;
+}
+
+Hover Viewer::hover(double x, double y, int width, int height) const {
+    return hover_at(scene(), assets(), (x + 0.5) / width, (y + 0.5) / height,
+                    static_cast<double>(width) / height);
+}
+
+Axes Viewer::axes_of_map(Projection projection) const {
+    const bool for_camera =
+        projection == Projection::sphere && scene().method != Method::sphere_stale;
+    return for_camera ? axes(scene().camera) : default_axes(projection);
+}
+
+const ScreenPicture& Viewer::map_picture(MapContent content, Projection projection, int height) {
+    ShownMaps::Look look;
+    look.environment = assets().environment.axes;
+    look.exposure = exposure() * scene().environment.intensity;
+    look.tone_map = scene().tone_map;
+    look.axes = axes_of_map(projection);
+    const std::vector<Lobe> lobes = lobes_of(scene());
+    if (content == MapContent::glossy) {
+        const bool selected_is_glossy =
+            selected() < scene().objects.size() && scene().objects[selected()].material.glossy > 0;
+        if (selected_is_glossy) {
+            look.lobe = scene().objects[selected()].material.lobe;
+        } else if (!lobes.empty()) {
+            look.lobe = lobes.front();
+        }
+    }
+    return impl_->shown_maps_.picture(content, projection, height, look);
+}
+
+}  // namespace mirrorball
