@@ -27,12 +27,15 @@ target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
 target_compile_definitions(TinyGLTF::TinyGLTF INTERFACE TINYGLTF_NO_STB_IMAGE
     TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_INCLUDE_STB_IMAGE TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE)
 
-add_compile_options(-msimd128 -fwasm-exceptions)
+add_compile_options(-msimd128 -mnontrapping-fptoint -fwasm-exceptions)
 add_link_options(-msimd128 -fwasm-exceptions)
 # Where Debian has the JavaScript libraries that the linker uses.
 set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK
     "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
 
-# Highway 1.0.3 has no vectors of doubles for WebAssembly. Its plain loops over 16 bytes have, and the
-# compiler makes vector code of them.
-add_compile_definitions($<$<BOOL:$<TARGET_PROPERTY:MIRRORBALL_VECTORS_OF_DOUBLES>>:HWY_COMPILE_ONLY_EMU128>)
+# Highway 1.0.3 has no vectors of doubles for WebAssembly. Sources that use them take its plain loops
+# over 16 bytes instead, of which the compiler makes vector code.
+function(use_plain_vectors)
+    set_source_files_properties(${ARGN} TARGET_DIRECTORY mirrorball PROPERTIES
+        COMPILE_DEFINITIONS HWY_COMPILE_ONLY_EMU128)
+endfunction()

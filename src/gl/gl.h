@@ -9,6 +9,7 @@
 
 // Of desktop OpenGL; who asks is_desktop() first does not come so far.
 #define GL_GEOMETRY_SHADER 0x8DD9
+#define GL_TEXTURE_CUBE_MAP_SEAMLESS 0x884F
 inline void glFramebufferTexture(GLenum, GLenum, GLuint, GLint) {}
 
 #else
