@@ -2,7 +2,7 @@
 # (scripts/install-packages.sh), configures, builds and runs; none ever asks a question.
 
 .DEFAULT_GOAL := build
-.PHONY: build demo gallery test bench gpu-test asan tsan fuzz format install clean help
+.PHONY: build demo gallery test web web-test bench gpu-test asan tsan fuzz format install clean help
 
 PREFIX ?= /usr/local
 INPUT ?= builtin:sunset
@@ -35,6 +35,18 @@ gallery:  ## make the pictures of docs/gallery again, by the commands in its REA
 
 test: build  ## build everything and run all tests
 	@ctest --preset release
+
+web:  ## build the page for browsers: a folder of static files, build/web/page
+	@scripts/install-packages.sh build web
+	@cmake --preset web $(CONFIGURE)
+	@cmake --build --preset web
+	@printf '\nThe page is in %s; to see it:  %s serve\n' '$(abspath build/web/page)' '$(PROGRAM)'
+
+web-test: web  ## test the page in Chromium, against the program's pictures
+	@scripts/install-packages.sh test
+	@cmake --preset release
+	@cmake --build --preset release --target mirrorball_program
+	@MIRRORBALL_WEB_REQUIRED=1 scripts/web-test.sh build/web $(PROGRAM)
 
 bench:  ## build and run the benchmarks
 	@scripts/install-packages.sh build test bench

@@ -182,13 +182,18 @@ namespace detail {
 
 std::span<const Codec* const> codecs() {
     static const std::vector<const Codec*> kTable = {
-        &kHdr,    &kExr,
+        &kHdr,
+        &kExr,
 #if defined(__EMSCRIPTEN__)
         &kDecodedPicture,
 #else
-        &kPng,    &kJpeg, &kTiff,
+        &kPng,
+        &kJpeg,
+        &kTiff,
 #endif
-        &kKtx2,   &kDds,  &kPfm,
+        &kKtx2,
+        &kDds,
+        &kPfm,
     };
     return kTable;
 }

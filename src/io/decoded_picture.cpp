@@ -52,7 +52,6 @@ FileContents read(InputFile& file, const ReadOptions& options) {
 
 // A broken file never comes so far: it is the browser that says so.
 const Codec kDecodedPicture{
-    "PNG or JPEG, by the browser", {".png", ".jpg", ".jpeg", ".webp", ".avif"}, {}, recognises,
-    read, nullptr};
+    "PNG or JPEG", {".png", ".jpg", ".jpeg", ".webp", ".avif"}, {}, recognises, read, nullptr};
 
 }  // namespace mirrorball::detail

@@ -153,8 +153,8 @@ Image assemble(const InputFile& file, const Header& header, const Pixels& pixels
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
                 for (std::size_t c = 0; c < channels.size(); ++c)
-                    image.at(left + x, top + y)[c] = value_at(
-                        planes[channels[c]], static_cast<std::size_t>(y) * stride + x);
+                    image.at(left + x, top + y)[c] =
+                        value_at(planes[channels[c]], static_cast<std::size_t>(y) * stride + x);
             }
         }
     };
@@ -210,8 +210,9 @@ FileContents read(InputFile& file, const ReadOptions& options) {
     check_header(file, header, options);
     if (std::memcmp(&header.data_window, &header.display_window, sizeof(EXRBox2i)) != 0)
         throw Error(Errc::unsupported,
-                    file.name() + ": stores another part of the picture than is to be shown, "
-                                  "which this build cannot read");
+                    file.name() +
+                        ": stores another part of the picture than is to be shown, "
+                        "which this build cannot read");
 
     FileContents contents;
     std::optional<Projection> environment;

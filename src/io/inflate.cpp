@@ -1,7 +1,7 @@
-// Deflate is a sequence of blocks of symbols: bytes as they are, or "so many bytes from so far back".
-// Symbols are canonical Huffman codes, which follow from their lengths alone: shorter codes first,
-// equal lengths in the order of symbols. So decoding walks down the lengths and needs, of each
-// length, the first code and where its symbols begin; nine bits at once go by a table.
+// Deflate is a sequence of blocks of symbols: bytes as they are, or "so many bytes from so far
+// back". Symbols are canonical Huffman codes, which follow from their lengths alone: shorter codes
+// first, equal lengths in the order of symbols. So decoding walks down the lengths and needs, of
+// each length, the first code and where its symbols begin; nine bits at once go by a table.
 #include "inflate.h"
 
 #include <algorithm>

@@ -54,8 +54,8 @@ inline std::uint32_t small_float_bits(std::uint32_t bits) {
     const std::uint32_t last_kept = bits >> kShift & 1;
     const std::uint32_t normal =
         (bits - (112u << 23) + ((1u << (kShift - 1)) - 1) + last_kept) >> kShift;
-    const std::uint32_t small = bit_cast<std::uint32_t>(bit_cast<float>(bits) + kLarge) -
-                                bit_cast<std::uint32_t>(kLarge);
+    const std::uint32_t small =
+        bit_cast<std::uint32_t>(bit_cast<float>(bits) + kLarge) - bit_cast<std::uint32_t>(kLarge);
     return bits < kSmallestNormal ? small : normal;
 }
 

@@ -74,8 +74,8 @@ class Page {
                 facts["methods"].push_back(
                     {{"name", name(method)}, {"description", describe(method)}});
             for (const Metal& metal : metals()) facts["metals"].push_back(metal.name);
-            for (const ToneMap tone_map : {ToneMap::film, ToneMap::agx, ToneMap::aces,
-                                           ToneMap::reinhard, ToneMap::none})
+            for (const ToneMap tone_map :
+                 {ToneMap::film, ToneMap::agx, ToneMap::aces, ToneMap::reinhard, ToneMap::none})
                 facts["tone_maps"].push_back(name(tone_map));
             for (const Projection projection : kShownProjections)
                 facts["projections"].push_back(
@@ -176,11 +176,13 @@ class Page {
                 result["normal"] = vector(hover.normal);
             }
             for (const Projection projection : kShownProjections) {
-                const MapPlace place = place_on_map(projection, viewer_->axes_of_map(projection),
-                                                    hover.reflected);
-                result["places"][std::string(name(projection))] = {
-                    {"x", place.x}, {"y", place.y}, {"face", place.face},
-                    {"s", place.s}, {"t", place.t}};
+                const MapPlace place =
+                    place_on_map(projection, viewer_->axes_of_map(projection), hover.reflected);
+                result["places"][std::string(name(projection))] = {{"x", place.x},
+                                                                   {"y", place.y},
+                                                                   {"face", place.face},
+                                                                   {"s", place.s},
+                                                                   {"t", place.t}};
             }
             return result;
         });
@@ -191,12 +193,12 @@ class Page {
                                 int height) {
         auto result = emscripten::val::object();
         const std::string answer = reply([&] {
-            const ScreenPicture& picture = viewer_->map_picture(
-                content_of(content), parse_projection(projection), height);
+            const ScreenPicture& picture =
+                viewer_->map_picture(content_of(content), parse_projection(projection), height);
             result.set("width", picture.width);
             result.set("height", picture.height);
-            result.set("rgba", emscripten::val(emscripten::typed_memory_view(
-                                   picture.rgba.size(), picture.rgba.data())));
+            result.set("rgba", emscripten::val(emscripten::typed_memory_view(picture.rgba.size(),
+                                                                             picture.rgba.data())));
             return json::object();
         });
         if (answer != "{}") result.set("error", json::parse(answer)["error"].get<std::string>());
