@@ -15,3 +15,18 @@ if(MIRRORBALL_BUILD_RENDERER)
     find_package(nlohmann_json CONFIG REQUIRED)
     pkg_check_modules(Epoxy REQUIRED IMPORTED_TARGET epoxy)
 endif()
+
+# The window of `mirrorball view`; without what it needs, the program has all other verbs.
+pkg_check_modules(Glfw QUIET IMPORTED_TARGET glfw3)
+pkg_check_modules(ImGui QUIET IMPORTED_TARGET imgui)
+if(Glfw_FOUND AND ImGui_FOUND)
+    set(has_window ON)
+else()
+    set(has_window OFF)
+endif()
+option(MIRRORBALL_BUILD_VIEWER "Build the window of the program's verb view (needs GLFW and ImGui)"
+    ${has_window})
+if(MIRRORBALL_BUILD_VIEWER AND NOT has_window)
+    message(FATAL_ERROR "MIRRORBALL_BUILD_VIEWER needs GLFW and Dear ImGui: "
+        "apt-get install libglfw3-dev libimgui-dev")
+endif()

@@ -31,11 +31,17 @@ build   nlohmann-json3-dev     bake.json and the output of --json
 build   libtinyobjloader-dev   OBJ meshes
 build   libtinygltf-dev        glTF meshes
 build   libepoxy-dev           OpenGL and EGL, loaded when they are used
+build   libglfw3-dev           the window of `mirrorball view`
+build   libimgui-dev           its controls
+build   fonts-dejavu-core      their letters
 build   libegl1                OpenGL without a window
 build   libgl1                 OpenGL itself
 build   libgles2               OpenGL ES, as browsers have it
 build   libgl1-mesa-dri        a driver for it that needs no graphics card
 test    libgtest-dev           the tests
+test    xvfb                   a screen that no one sees, for tests of the window
+test    xauth                  xvfb-run needs it
+test    xdotool                a mouse and keys on that screen
 bench   libbenchmark-dev       the benchmarks
 fuzz    clang                  libFuzzer comes with it
 fuzz    libclang-rt-14-dev     the sanitizers' and libFuzzer's run-time libraries

@@ -19,6 +19,9 @@ uniform mat3 u_to_map;  // from the world
 // The level whose texels are as large as what a pixel sees. Directions have no seams, so neither has
 // this, whatever the texture coordinates do.
 float footprint_level(vec3 d) {
+#ifdef FINEST_ONLY
+    return 0.0;
+#endif
     vec3 u = normalize(d);
     float seen = length(cross(dFdx(u), dFdy(u)));
     // no number where a neighbour beyond the triangle's edge has no direction to look up
@@ -38,3 +41,32 @@ vec3 glossy_light(vec3 r) {
 vec3 irradiance(vec3 n) {
     return look_up(u_diffuse_map, u_to_map * n, 0.0);
 }
+
+#ifdef HAS_ROUGH_MAP
+uniform MAP u_rough_map;       // GGX of alpha 1 at the last level, of half as much at each before
+uniform float u_rough_levels;  // how many
+uniform float u_mirror_alpha;  // what the width of the mirror's texels amounts to
+
+// rough_place() of include/mirrorball/reflection_maps.h: the share of the rough map, and at what level.
+vec2 rough_place(float alpha) {
+    float finest = exp2(1.0 - u_rough_levels);
+    if (alpha < finest) {
+        float sharp = min(u_mirror_alpha, 0.5 * finest);  // the mirror up to there
+        return vec2(alpha > sharp ? (1.0 - sharp / alpha) / (1.0 - sharp / finest) : 0.0, 0.0);
+    }
+    float level = floor(log2(alpha / finest));
+    float lod = level + 2.0 * (1.0 - exp2(level) * finest / alpha);
+    return vec2(1.0, min(lod, u_rough_levels - 1.0));
+}
+
+// What is seen along r by a mirror whose normals are spread as GGX with alpha spreads them.
+vec3 rough_light(vec3 r, float alpha) {
+    vec3 d = u_to_map * r;
+    float mirror_level = footprint_level(d);  // of derivatives, which all pixels have to take
+    vec2 place = rough_place(alpha);
+    vec3 light = vec3(0.0);
+    if (place.x > 0.0) light += place.x * look_up(u_rough_map, d, place.y);
+    if (place.x < 1.0) light += (1.0 - place.x) * look_up(u_mirror_map, d, mirror_level);
+    return light;
+}
+#endif

@@ -4,8 +4,13 @@ in vec4 v_mirror_place, v_normal_place;
 in vec3 v_back_place, v_normal_back_place;
 
 #if METHOD == SPHERE_VERTEX
+#include "projections.glsl"
+
+#ifndef SHIFTED
+#define SHIFTED(st) (st)
+#endif
 uniform sampler2D u_mirror_map, u_glossy_map, u_diffuse_map;
-#define LIGHT(map, place, back_place) texture(map, place.xy).rgb
+#define LIGHT(map, place, back_place) texture(map, SHIFTED(place.xy)).rgb
 
 #elif METHOD == CUBE_VERTEX
 uniform samplerCube u_mirror_map, u_glossy_map, u_diffuse_map;

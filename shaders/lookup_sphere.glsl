@@ -1,5 +1,9 @@
-// Maps are sphere maps.
+// Maps are sphere maps. SHIFTED: what becomes of a place on one.
 #include "projections.glsl"
+
+#ifndef SHIFTED
+#define SHIFTED(st) (st)
+#endif
 
 #define MAP sampler2D
 
@@ -9,5 +13,5 @@ float texel_solid_angle(MAP map, vec3 d) {
 }
 
 vec3 look_up(MAP map, vec3 d, float lod) {
-    return textureLod(map, sphere_st(d), lod).rgb;
+    return textureLod(map, SHIFTED(sphere_st(d)), lod).rgb;
 }

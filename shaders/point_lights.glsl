@@ -12,8 +12,8 @@ uniform float u_light_is_point[LIGHT_COUNT];
 uniform float u_exponent;    // of phong and blinn-phong
 uniform float u_lobe_scale;  // that normalises those
 
-// The lobe's BRDF times its weight in the layer.
-vec3 glossy_brdf(vec3 n, vec3 l, vec3 v, Weights weights) {
+// The lobe's BRDF times its weight in the layer. `variance` is that of slopes too fine to be seen.
+vec3 glossy_brdf(vec3 n, vec3 l, vec3 v, Weights weights, float variance) {
     vec3 h = normalize(l + v);
     float n_dot_l = dot(n, l), n_dot_v = dot(n, v), n_dot_h = dot(n, h);
 #if LOBE == PHONG
@@ -22,8 +22,9 @@ vec3 glossy_brdf(vec3 n, vec3 l, vec3 v, Weights weights) {
 #elif LOBE == BLINN_PHONG
     return weights.layer * (n_dot_h > 0.0 ? u_lobe_scale * pow(n_dot_h, u_exponent) : 0.0);
 #elif LOBE == GGX
-    if (u_roughness < 0.01) return vec3(0.0);  // a mirror
-    float alpha = u_roughness * u_roughness, alpha2 = alpha * alpha;
+    float alpha = u_roughness * u_roughness;
+    float alpha2 = min(1.0, alpha * alpha + 2.0 * variance);
+    if (alpha2 < 1e-8) return vec3(0.0);  // a mirror
     vec3 across = h - n_dot_h * n;  // its length is the sine, which does not cancel
     float spread = dot(across, across) / alpha2 + n_dot_h * n_dot_h;
     float d = 1.0 / (PI * alpha2 * spread * spread);
@@ -41,20 +42,27 @@ vec3 glossy_brdf(vec3 n, vec3 l, vec3 v, Weights weights) {
 #endif
 }
 
-vec3 light_of_lights(vec3 position, vec3 n, vec3 v, vec3 base_color, Weights weights) {
-    vec3 sum = vec3(0.0), base = weights.base * u_diffuse * base_color / PI;
+// Radiance to the eye: of a base of base_color 1, and of the layer over it.
+struct Lit {
+    vec3 base, layer;
+};
+
+Lit light_of_lights(vec3 position, vec3 n, vec3 v, Weights weights, float variance) {
+    Lit lit = Lit(vec3(0.0), vec3(0.0));
     for (int i = 0; i < LIGHT_COUNT; ++i) {
         vec3 to_light = u_light_place[i] - u_light_is_point[i] * position;
         float distance2 = dot(to_light, to_light);
         vec3 l = to_light * inversesqrt(max(distance2, 1e-30));
         float n_dot_l = dot(n, l);
         if (n_dot_l <= 0.0) continue;
-        vec3 f = base;
+        vec3 arriving =
+            u_light_strength[i] * n_dot_l / (u_light_is_point[i] > 0.0 ? distance2 : 1.0);
+        lit.base += arriving;
 #ifdef HAS_GLOSSY
-        f += u_glossy * glossy_brdf(n, l, v, weights);
+        lit.layer += u_glossy * glossy_brdf(n, l, v, weights, variance) * arriving;
 #endif
-        sum += f * u_light_strength[i] * n_dot_l / (u_light_is_point[i] > 0.0 ? distance2 : 1.0);
     }
-    return sum;
+    lit.base *= weights.base * u_diffuse / PI;
+    return lit;
 }
 #endif

@@ -11,6 +11,7 @@ uniform sampler2D u_first;
 #if SHOW == WIPE || SHOW == DIFFERENCE
 uniform sampler2D u_second;
 #endif
+uniform vec2 u_origin;       // where the picture's lower left corner is
 uniform float u_wipe;        // in pixels from the left
 uniform float u_full_scale;  // the difference that is white
 
@@ -34,13 +35,14 @@ vec3 false_color(float t) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec2 place = gl_FragCoord.xy - u_origin;
+    ivec2 pixel = ivec2(place);
     vec3 first = texelFetch(u_first, pixel, 0).rgb;
 #if SHOW == ONE
     o_color = vec4(srgb(first), 1.0);
 #elif SHOW == WIPE
     vec3 second = texelFetch(u_second, pixel, 0).rgb;
-    o_color = vec4(srgb(gl_FragCoord.x < u_wipe ? first : second), 1.0);
+    o_color = vec4(srgb(place.x < u_wipe ? first : second), 1.0);
 #elif SHOW == DIFFERENCE
     vec3 apart = abs(srgb(first) - srgb(texelFetch(u_second, pixel, 0).rgb));
     o_color = vec4(false_color(max(apart.r, max(apart.g, apart.b)) / u_full_scale), 1.0);

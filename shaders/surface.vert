@@ -7,15 +7,20 @@
 #define v_position g_position
 #define v_normal g_normal
 #define v_texture_coordinate g_texture_coordinate
+#define v_tangent g_tangent
 #endif
 
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec2 a_texture_coordinate;
 layout(location = 3) in vec3 a_split_place;  // (s q, t q, q), of split polygons
+#ifdef HAS_TANGENTS
+layout(location = 4) in vec4 a_tangent;  // and the handedness
+#endif
 
 uniform mat4 u_to_world, u_to_clip;  // to_clip from the world
 uniform mat3 u_normal_to_world;
+uniform float u_handedness;  // of u_to_world: 1, or -1 if it mirrors
 uniform vec3 u_eye;
 
 // Passes over one object have to meet the same pixels at the same depths.
@@ -24,6 +29,9 @@ invariant gl_Position;
 out vec3 v_position;  // world
 out vec3 v_normal;
 out vec2 v_texture_coordinate;
+#ifdef HAS_TANGENTS
+out vec4 v_tangent;  // bump.h's x, unit; and the sign of its y against cross(normal, x)
+#endif
 
 #if PER_VERTEX
 uniform mat3 u_to_map;  // from the world; for sphere maps to the frame of the eye
@@ -44,8 +52,11 @@ vec4 place(vec3 d) {
 void main() {
     vec4 world = u_to_world * vec4(a_position, 1.0);
     v_position = world.xyz;
-    v_normal = u_normal_to_world * a_normal;
+    v_normal = unit_normal(u_normal_to_world * a_normal);  // what is interpolated: lengths matter
     v_texture_coordinate = a_texture_coordinate;
+#ifdef HAS_TANGENTS
+    v_tangent = vec4(unit_normal(mat3(u_to_world) * a_tangent.xyz), a_tangent.w * u_handedness);
+#endif
 #ifdef SIX_VIEWS
     gl_Position = world;
 #else

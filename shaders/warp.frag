@@ -11,6 +11,7 @@ uniform MAP u_cube;
 uniform mat3 u_to_cube;  // from the frame of the new map
 uniform vec2 u_size;     // of the new map, in texels
 uniform int u_face;      // if it is one of a cube
+uniform float u_level;   // to read, if it is known
 out vec4 o_color;
 
 vec3 direction_at(vec2 st) {
@@ -51,8 +52,13 @@ float solid_angle_at(vec2 st, vec3 d) {
 void main() {
     vec2 st = gl_FragCoord.xy / u_size;
     vec3 d = direction_at(st);
+#ifdef LEVEL_KNOWN
+    float level = u_level;
+    d = u_to_cube * d;
+#else
     float solid_angle = solid_angle_at(st, d) / (u_size.x * u_size.y);
     d = u_to_cube * d;
     float level = max(0.0, 0.5 * log2(solid_angle / texel_solid_angle(u_cube, d)));
+#endif
     o_color = vec4(look_up(u_cube, d, level), 1.0);
 }

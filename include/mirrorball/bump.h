@@ -17,11 +17,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <mirrorball/image.h>
+#include <mirrorball/io.h>
 
 namespace mirrorball {
 
@@ -111,6 +114,43 @@ struct NormalFaults {
 /// Error(Errc::cannot_read) if it has fewer than three channels or holds NaN or infinity
 [[nodiscard]] NormalMap parse_normals(const Image& picture, Green green, double step = 0,
                                       NormalFaults* faults = nullptr);
+
+// Files
+// ---------------------------------------------------------------------------------------------
+
+enum class BumpKind {
+    height,  ///< metres, by BumpReadOptions::scale
+    normal,  ///< 1/2 + n/2, or n itself
+    slopes,  ///< du, dv; of 8 and 16 bits 1/2 + slope / (2 range). Spelled dudv
+};
+[[nodiscard]] std::string_view name(BumpKind kind);
+/// \throws Error(Errc::usage) naming the kinds there are
+[[nodiscard]] BumpKind parse_bump_kind(std::string_view name);
+
+struct BumpReadOptions {
+    std::optional<BumpKind> kind;  ///< unless told, grey pictures are heights, others normals
+    double scale = 1;              ///< metres per value of a picture of heights
+    double width = 1;              ///< metres that it covers from left to right; texels are square
+    std::optional<Wrap> wrap;      ///< of heights; repeat unless told
+    Green green = Green::up;
+    double range = 1;  ///< slope that 8 and 16 bits of du/dv reach to either side
+    Transfer transfer = Transfer::linear;
+    std::uint64_t memory_limit = kUnlimitedMemory;
+};
+
+/// Heights where the file has them, and slopes of whatever it has.
+struct BumpPicture {
+    BumpKind kind = BumpKind::height;
+    std::optional<HeightMap> relief = {};
+    SlopeMap slopes = {};
+    std::optional<NormalMap> normals = {};  ///< as they were read
+    /// What was odd about it, for people: one sentence each, without the file's name.
+    std::vector<std::string> remarks = {};
+};
+/// \throws what read_image() does, and Error(Errc::cannot_read) naming the file where it has too
+/// few channels or holds a value that is not finite
+[[nodiscard]] BumpPicture read_bump(const std::filesystem::path& path,
+                                    const BumpReadOptions& options = {});
 
 // Levels
 // -------------------------------------------------------------------------------------------

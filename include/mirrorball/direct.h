@@ -18,22 +18,28 @@ struct SurfaceBuffer {
     Image normal;               ///< of the world, unit, on the mesh's outer side
     Image object;               ///< one channel: index in Scene::objects, or -1 for none
     Image texture_coordinates;  ///< two channels; (0, 0) is top left
+    /// x and y of the tangent frame (bump.h), of the world: slopes du, dv turn the normal to
+    /// normal - du tangent - dv bitangent. 0 where the mesh has none; empty if no object has.
+    Image tangent = {}, bitangent = {};
 };
 
 /// A point of a surface.
 struct SurfacePoint {
     Vec3d position, normal;  ///< of the world; the normal is unit, on the outer side
     Vec2f texture_coordinates{0, 0};
+    Vec3d tangent{0}, bitangent{0};  ///< as in SurfaceBuffer
 };
 
 /// A scene made ready to be evaluated anywhere. May be used from many threads at once.
 ///
 /// Surfaces have two sides: one seen from behind has its normal turned. Of a glass seen so, the eye
 /// is in the medium: directions are refracted outwards, F is taken at the angle outside, and where
-/// no light gets out, F is that of grazing light. Maps are looked up at their finest level.
+/// no light gets out, F is that of grazing light. Maps are looked up at their finest level, bump
+/// maps too, so that of a filter of bumps this is the truth for a point, not for a pixel.
 class DirectShading {
   public:
-    /// \pre all outlive this; `maps` has the lobes of the scene's glossy materials
+    /// \pre all outlive this; `maps` has the lobes of the scene's glossy materials, and are sphere
+    /// maps if one has a bump map of the classic form
     DirectShading(const Scene& scene, const SceneAssets& assets, const ReflectionMaps& maps);
     ~DirectShading();
 

@@ -13,12 +13,15 @@
 
 namespace mirrorball {
 
+using Vec4f = Imath::V4f;
+
 /// Triangles, counter-clockwise seen from outside. Vertices of one index are one vertex: where a
 /// surface has an edge, its two sides have vertices of their own.
 struct Mesh {
     std::vector<Vec3f> positions;
     std::vector<Vec3f> normals;              ///< unit, one per position
     std::vector<Vec2f> texture_coordinates;  ///< one per position, or none; (0, 0) is top left
+    std::vector<Vec4f> tangents;             ///< one per position, or none: with_tangents()
     std::vector<std::uint32_t> indices;      ///< three per triangle
 
     [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
@@ -58,14 +61,44 @@ struct MeshReadOptions {
 /// OBJ (.obj), glTF 2.0 (.gltf, .glb): all triangles of the file's default scene, transformed, as
 /// one mesh. Polygons are cut into triangles; triangles without area, lines and points are left
 /// out. Normals that are missing or 0 are made: the mean of those of the faces around a position,
-/// weighted by their angles there. Materials, skins, morph targets and animations are passed over.
-/// \throws Error(Errc::cannot_read) naming the file, what was found and what was expected
+/// weighted by their angles there. Tangents are glTF's TANGENT if every vertex has one and a normal
+/// of the file, made unit and perpendicular to it; w changes its sign in a mirrored node.
+/// Materials, skins, morph targets and animations are passed over. \throws Error(Errc::cannot_read)
+/// naming the file, what was found and what was expected
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path,
                              const MeshReadOptions& options = {});
 
 /// The normals that read_mesh() makes. Positions that are equal share one, whatever their indices;
 /// where faces cancel out, as the two sides of a sheet do, each has that of a face of its own.
 [[nodiscard]] std::vector<Vec3f> smooth_normals(const Mesh& mesh);
+
+/// Adds the frames in which a picture's relief is told (bump.h): of each vertex
+///
+///     x = tangent.xyz                       unit, in the surface, where s grows
+///     y = tangent.w * cross(normal, x)      up in the picture, where t falls
+///     z = normal
+///
+/// w is +1, or -1 where the surface shows the picture mirrored. It is what glTF stores as TANGENT.
+/// As MikkTSpace does (Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited", and the code
+/// that has become the standard of it): each triangle has a direction along s; a vertex takes the
+/// mean of those around it, each laid into the vertex's plane and made unit, weighted by the
+/// triangle's angle there as seen along the normal. Vertices are one if position, normal and
+/// texture coordinates are equal, whatever their indices; where mirrored triangles meet others, a
+/// vertex becomes two, the mirrored one at the end. Different from MikkTSpace:
+///
+/// - Texture coordinates that differ by whole numbers are equal too, so that a tile's seams do not
+///   show. MikkTSpace takes the mean on each side of them alone.
+/// - Triangles of one handedness that touch in a vertex only, at an equal place of the texture, are
+///   one; MikkTSpace takes those that are connected by edges.
+/// - Triangles without area, or whose texture has none but by its coordinates' rounding, add
+/// nothing.
+///   A vertex that nothing is added to gets some direction in its plane.
+/// - Polygons are triangles here; MikkTSpace knows quads.
+///
+/// A mesh that has tangents already stays as it is. Some 25 ms for 70000 triangles.
+/// \pre normals are unit; all numbers are finite
+/// \throws Error(Errc::usage) if the mesh has no texture coordinates
+[[nodiscard]] Mesh with_tangents(Mesh mesh);
 
 /// A mesh whose triangles each reflect into one face of a cube: section 2 of the survey.
 ///

@@ -14,6 +14,7 @@
 #include <ImathMatrix.h>
 
 #include <mirrorball/axes.h>
+#include <mirrorball/bump.h>
 #include <mirrorball/fresnel.h>
 #include <mirrorball/lobe.h>
 #include <mirrorball/projection.h>
@@ -33,6 +34,80 @@ enum class Coupling {
 /// \throws Error(Errc::usage) naming the couplings there are
 [[nodiscard]] Coupling parse_coupling(std::string_view name);
 
+/// How relief that only shading sees disturbs reflections: section 7 of the survey.
+enum class BumpForm {
+    /// The normal turns in its tangent frame before anything is looked up, in any map of methods
+    /// that work per pixel: cube EMBM.
+    normals,
+    /// Places on sphere maps move, by a matrix, and the normal stays: classic EMBM. Light of lights
+    /// comes from a sphere map, too, the light map, made for each picture.
+    classic,
+};
+/// "normals", "classic"
+[[nodiscard]] std::string_view name(BumpForm form);
+/// \throws Error(Errc::usage) naming the forms there are
+[[nodiscard]] BumpForm parse_bump_form(std::string_view name);
+
+/// What becomes of bumps that are too fine for a pixel.
+enum class BumpFilter {
+    none,      ///< nothing: one point of the finest level, of the bump and of what it reflects;
+               ///< sparkles
+    mean,      ///< they cancel out, and the surface gets smoother than it is: plain mip levels
+    variance,  ///< they make it rougher: alpha'^2 = alpha^2 + 2 variance, see bump.h
+};
+/// "none", "mean", "variance"
+[[nodiscard]] std::string_view name(BumpFilter filter);
+/// \throws Error(Errc::usage) naming the filters there are
+[[nodiscard]] BumpFilter parse_bump_filter(std::string_view name);
+
+/// Relief of a material, by the texture coordinates (s, t) of its mesh. Slopes are taken as the
+/// source has them, in metres per metre, however large the mesh makes its tiles.
+struct BumpMap {
+    std::string source;              ///< of bump_sources(), or a picture; empty: smooth
+    std::optional<BumpKind> kind;    ///< of a picture; else grey ones are heights
+    Green green = Green::up;         ///< of a picture of normals
+    Wrap wrap = Wrap::repeat;        ///< of a picture; sources are tiles
+    double height_scale = 1;         ///< metres per value of a picture of heights
+    double width = 0;                ///< metres that it covers; 0: 1, or the source's own
+    int size = 512;                  ///< of a source, in texels; 1 to 4096
+    Imath::V2d repeat{1};            ///< tiles from (0, 0) to (1, 1)
+    Imath::V2d offset{0}, drift{0};  ///< of tiles; and what is added to it each second
+    double strength = 1;             ///< multiplies slopes; -100 to 100
+    BumpForm form = BumpForm::normals;
+    BumpFilter filter = BumpFilter::variance;
+
+    // Of the form `normals`.
+    double relief =
+        0;  ///< depth of the relief, which the eye looks into, in tiles; 0 to 1; 0: flat
+    bool horizon = true;  ///< do reflections into the surface get darker?
+
+    /// Of the form `classic`, (m00 m01; m10 m11):
+    ///
+    ///     s' = s + m00 dH/ds + m01 dH/dt        (s, t) on the sphere map
+    ///     t' = t + m10 dH/ds + m11 dH/dt
+    ///
+    /// -1/2 is what the normals of a surface that faces the eye would do. Direct3D has m01 and m10
+    /// the other way round. With luminance L, the height from 0 (lowest) to 1, light is multiplied
+    /// by luminance_scale L + luminance_offset, clamped to 0 to 1.
+    Imath::M22d matrix{-0.5, 0, 0, -0.5};
+    double matrix_turn = 0;  ///< radians per second, by which it is turned
+    double luminance_scale = 0, luminance_offset = 1;
+
+    [[nodiscard]] bool is_smooth() const { return source.empty(); }
+    bool operator==(const BumpMap&) const = default;
+};
+
+/// A level, diffuse plane, seen through a surface that transmits.
+struct Floor {
+    double height = -1;      ///< y, in the world
+    Vec3d color{0.5};        ///< 0 to 1
+    std::string color_map;   ///< a picture that multiplies it, repeated; or none
+    double color_width = 1;  ///< metres that the picture covers
+    Vec3d absorption{0};     ///< of what is above it, per metre: e^(-absorption length); 0 to 1000
+
+    bool operator==(const Floor&) const = default;
+};
+
 /// The survey's figure 4.1, each term with its weight, and F the Fresnel term:
 ///
 ///     L_layer    = mirror L(r) + glossy L_lobe(r)
@@ -51,6 +126,10 @@ struct Material {
     Fresnel fresnel;  ///< 1 at every angle unless it is said
     Coupling coupling = Coupling::layered;
     double index = 1.5;  ///< of refraction, for `transmission`; 0.01 to 100
+    /// What refracted rays that go down meet, instead of the environment: base_color (1 - F) times
+    /// color E(up) / pi, dimmed along the way. It is lit by the environment alone.
+    std::optional<Floor> floor;
+    BumpMap bump;
 
     bool operator==(const Material&) const = default;
 };
@@ -136,12 +215,14 @@ struct SceneEnvironment {
 struct ScenePointLight {
     Vec3d position{0, 3, 0};
     Vec3d intensity{10};  ///< W/sr
+    double turn = 0;      ///< radians per second about the world's y axis, as Transform::yaw turns
 
     bool operator==(const ScenePointLight&) const = default;
 };
 struct SceneDirectionalLight {
     Vec3d direction{0, 1, 0};    ///< towards the light; any length but 0
     Vec3d normal_irradiance{1};  ///< W/m^2
+    double turn = 0;             ///< as of a point light
 
     bool operator==(const SceneDirectionalLight&) const = default;
 };
@@ -189,6 +270,10 @@ enum class Method {
 /// The projection whose maps it looks up.
 [[nodiscard]] Projection projection_of(Method method);
 
+/// Can such a method show a bump map? The classic form takes sphere maps, the other lookups per
+/// pixel.
+[[nodiscard]] bool can_show(Method method, const BumpMap& bump);
+
 struct Scene {
     std::vector<SceneObject> objects;
     SceneEnvironment environment;
@@ -198,9 +283,16 @@ struct Scene {
     int map_size = 0;     ///< of the map that mirrors show, to 16384; 0: as the environment's
     double exposure = 0;  ///< to 1e12; 0: the environment's usual_exposure()
     ToneMap tone_map = ToneMap::film;
+    double time = 0;  ///< seconds, of what moves: bumps and lights; -1e6 to 1e6
 
     bool operator==(const Scene&) const = default;
 };
+
+/// Where the scene's lights are at its time.
+[[nodiscard]] std::vector<SceneLight> lights_now(const Scene& scene);
+/// A bump's offset and matrix at a time.
+[[nodiscard]] Imath::V2d offset_at(const BumpMap& bump, double time);
+[[nodiscard]] Imath::M22d matrix_at(const BumpMap& bump, double time);
 
 /// The exposure that a scene asks for, or the one that suits an environment whose usual_exposure()
 /// is given. A dark environment, of intensity 0, says nothing about lights.

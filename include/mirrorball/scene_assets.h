@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 
+#include <mirrorball/bump.h>
 #include <mirrorball/environment_map.h>
 #include <mirrorball/image.h>
 #include <mirrorball/io.h>
@@ -13,10 +15,18 @@
 
 namespace mirrorball {
 
+/// A bump map as surfaces look it up.
+struct BumpTexels {
+    SlopeMap slopes;
+    Image heights;  ///< one channel, from 0, the lowest, to 1; one texel of 1 where none are known
+};
+
 /// By the names that the scene has for them.
 struct SceneAssets {
-    std::map<std::string, Mesh> meshes;
+    std::map<std::string, Mesh> meshes;     ///< with tangents where a bump map asks for them
     std::map<std::string, Image> pictures;  ///< linear, three channels
+    /// Of those that do not move, by bump_key().
+    std::map<std::string, std::shared_ptr<const BumpTexels>> bumps;
     /// Turned as the scene says; its intensity is applied when shading.
     EnvironmentMap environment;
 };
@@ -34,7 +44,9 @@ struct AssetOptions {
 
 // The parts of it, for those who load again and again.
 
-/// Meshes and pictures that the scene names and `assets` has not got. \throws Error as above
+/// Has `assets` all that the scene names but the environment?
+[[nodiscard]] bool is_loaded(const Scene& scene, const SceneAssets& assets);
+/// What it has not got. \throws Error as above
 void load_missing(SceneAssets& assets, const Scene& scene, const std::filesystem::path& folder,
                   const AssetOptions& options = {});
 /// The environment as its file has it, not turned yet. \throws Error as read_map() does
@@ -43,5 +55,14 @@ void load_missing(SceneAssets& assets, const Scene& scene, const std::filesystem
                                          const AssetOptions& options = {});
 /// The axes of such a map as the scene turns it.
 [[nodiscard]] Axes turned(const Axes& axes, const SceneEnvironment& environment);
+
+/// Whether a bump map's source changes with time.
+[[nodiscard]] bool moves(const BumpMap& bump);
+/// What its texels depend on besides the time.
+[[nodiscard]] std::string bump_key(const BumpMap& bump);
+/// Those of a scene's bump map at a time; moving ones are made. \pre it has one, and its assets are
+/// loaded
+[[nodiscard]] std::shared_ptr<const BumpTexels> bump_texels(const BumpMap& bump,
+                                                            const SceneAssets& assets, double time);
 
 }  // namespace mirrorball

@@ -54,6 +54,7 @@ struct Hover {
 struct ScreenPicture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba;
+    std::uint64_t version = 0;  ///< another one whenever it has been made anew
 };
 
 /// What a map in a picture holds: the environment, or it as blurred by the first glossy lobe of the
@@ -157,10 +158,10 @@ class Viewer {
     // Pictures
     // ------------------------------------------------------------------------------------------
 
-    /// Into the framebuffer that is bound, as sRGB; leaves it bound. While nothing changes, each
-    /// call makes the picture smoother until it is(). \throws Error as Renderer does; the scene is
-    /// then the last that could be drawn
-    void draw(int width, int height);
+    /// Into the framebuffer that is bound, as sRGB, from this pixel to the right and upwards; leaves
+    /// it bound. While nothing changes, each call makes the picture smoother until it is. \throws
+    /// Error as Renderer does; the scene is then the last that could be drawn
+    void draw(int width, int height, int left = 0, int bottom = 0);
     /// Has the picture all its samples?
     [[nodiscard]] bool is_smooth() const;
 

@@ -169,17 +169,4 @@ Seams seams(const HeightMap& relief) {
             jump_ratio(down, width, inner_down, std::int64_t{width} * (height - 1))};
 }
 
-// Names -------------------------------------------------------------------------------------------
-
-std::string_view name(Wrap wrap) {
-    return wrap == Wrap::repeat ? "repeat" : wrap == Wrap::clamp ? "clamp" : "mirror";
-}
-
-Wrap parse_wrap(std::string_view text) {
-    for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror})
-        if (text == name(wrap)) return wrap;
-    throw Error(Errc::usage,
-                fmt::format("\"{}\" is no way to wrap; there are repeat, clamp, mirror", text));
-}
-
 }  // namespace mirrorball

@@ -7,6 +7,7 @@
 
 #include <mirrorball/bump.h>
 
+#include "bump/levels.h"
 #include "core/parallel.h"
 
 namespace mirrorball {
@@ -67,13 +68,6 @@ Image averaged(const Image& source, const std::vector<Share>& columns,
     return result;
 }
 
-BumpLevel averaged(const BumpLevel& source, int width, int height) {
-    const std::vector<Share> columns = shares(source.mean.width(), width);
-    const std::vector<Share> rows = shares(source.mean.height(), height);
-    return {averaged(source.mean, columns, rows), averaged(source.second, columns, rows),
-            averaged(source.normal, columns, rows)};
-}
-
 // A moment less the product of means, where that is more than what rounding left of it.
 double central(double second, double product, double scale) {
     constexpr double kRounding = 1.0 / (1 << 22);
@@ -83,15 +77,29 @@ double central(double second, double product, double scale) {
 
 }  // namespace
 
-std::vector<BumpLevel> bump_levels(const SlopeMap& map) {
-    std::vector<BumpLevel> levels = {first_level(map)};
-    int width = map.slopes.width(), height = map.slopes.height();
+std::vector<Image> detail::area_levels(Image first) {
+    int width = first.width(), height = first.height();
+    std::vector<Image> levels;
+    levels.push_back(std::move(first));
     while (width > 1 || height > 1) {
         const bool even = width % 2 == 0 && height % 2 == 0;
+        const Image& source = even ? levels.back() : levels.front();
         width = std::max(1, width / 2);
         height = std::max(1, height / 2);
-        levels.push_back(averaged(even ? levels.back() : levels.front(), width, height));
+        levels.push_back(
+            averaged(source, shares(source.width(), width), shares(source.height(), height)));
     }
+    return levels;
+}
+
+std::vector<BumpLevel> bump_levels(const SlopeMap& map) {
+    BumpLevel first = first_level(map);
+    std::vector<Image> mean = detail::area_levels(std::move(first.mean)),
+                       second = detail::area_levels(std::move(first.second)),
+                       normal = detail::area_levels(std::move(first.normal));
+    std::vector<BumpLevel> levels;
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        levels.push_back({std::move(mean[i]), std::move(second[i]), std::move(normal[i])});
     return levels;
 }
 

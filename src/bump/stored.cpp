@@ -95,16 +95,4 @@ NormalMap parse_normals(const Image& picture, Green green, double step, NormalFa
     return map;
 }
 
-std::string_view name(Green green) {
-    return green == Green::up ? "up" : "down";
-}
-
-Green parse_green(std::string_view text) {
-    if (text == "up") return Green::up;
-    if (text == "down") return Green::down;
-    throw Error(Errc::usage, fmt::format("\"{}\" is no way for green to point; there are up "
-                                         "(OpenGL) and down (Direct3D)",
-                                         text));
-}
-
 }  // namespace mirrorball

@@ -18,38 +18,15 @@
 namespace mirrorball::cli {
 namespace {
 
-enum class Kind { height, normal, dudv };
-constexpr const char* kKinds[] = {"height", "normal", "dudv"};
-
 struct Options {
     std::string source, output;
-    std::optional<Kind> from;
-    Kind to = Kind::normal;
-    double scale = 1, width = 0, time = 0, range = 1;
+    BumpReadOptions read;
+    BumpKind to = BumpKind::normal;
+    double width = 0, time = 0;
     int size = 512;
     bool has_size = false, has_time = false, list = false;
-    Wrap wrap = Wrap::repeat;
-    bool has_wrap = false;
-    Green green = Green::up, from_green = Green::up;
-    Transfer transfer = Transfer::linear;
+    Green green = Green::up;
     TexelFormat format = TexelFormat::automatic;
-};
-
-Kind parse_kind(const std::string& text) {
-    for (const Kind kind : {Kind::height, Kind::normal, Kind::dudv})
-        if (text == kKinds[static_cast<int>(kind)]) return kind;
-    throw Error(Errc::usage, unknown("a kind of bump map", text, {"height", "normal", "dudv"}));
-}
-
-const char* name(Kind kind) {
-    return kKinds[static_cast<int>(kind)];
-}
-
-// What a source becomes: heights where it had them, and slopes from whatever it had.
-struct Bump {
-    std::optional<HeightMap> relief;
-    SlopeMap slopes;
-    std::optional<NormalMap> normals;  // as they were read
 };
 
 int print_list(const Shared& shared) {
@@ -67,152 +44,24 @@ int print_list(const Shared& shared) {
     return 0;
 }
 
-// Reading ----------------------------------------------------------------------------------------
-
-bool is_grey(const Image& picture) {
-    if (picture.channels() < 3) return true;
-    for (int y = 0; y < picture.height(); ++y)
-        for (int x = 0; x < picture.width(); ++x) {
-            const Vec3f texel = picture.rgb(x, y);
-            if (texel.x != texel.y || texel.y != texel.z) return false;
-        }
-    return true;
-}
-
 bool is_integer(TexelFormat format) {
     return format == TexelFormat::unorm8 || format == TexelFormat::unorm16;
 }
 
-double code_step(TexelFormat format) {
-    return format == TexelFormat::unorm8    ? 1.0 / 255
-           : format == TexelFormat::unorm16 ? 1.0 / 65535
-                                            : 0;
-}
-
-// What a wrong result would look right without.
-void tell_of_relief(const HeightMap& relief, const std::string& source, bool has_wrap,
-                    const Shared& shared) {
-    const auto values = relief.heights.values();
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    if (*low == *high)
-        tell(shared, fmt::format("{}: all heights are {:g} m: the result is flat", source, *low));
-    constexpr double kVisible = 3;
-    const Seams jumps = seams(relief);
-    if (relief.wrap == Wrap::repeat && !has_wrap && std::max(jumps.across, jumps.down) > kVisible)
-        tell(shared,
-             fmt::format("{}: is no tile: it jumps {:.3g} times as much from edge to edge as "
-                         "between neighbours inside; --wrap clamp or mirror keeps that out of the "
-                         "slopes",
-                         source, std::max(jumps.across, jumps.down)));
-}
-
-HeightMap heights_of(const Image& picture, const Options& options, const Shared& shared) {
-    if (!is_grey(picture))
-        tell(shared, fmt::format("{}: has colours; red is taken as the height", options.source));
-    HeightMap relief{Image(picture.width(), picture.height(), 1)};
-    for (int y = 0; y < picture.height(); ++y)
-        for (int x = 0; x < picture.width(); ++x)
-            *relief.heights.at(x, y) = static_cast<float>(*picture.at(x, y) * options.scale);
-    relief.width = options.width > 0 ? options.width : 1;
-    relief.height = relief.width * picture.height() / picture.width();
-    relief.wrap = options.wrap;
-    return relief;
-}
-
-SlopeMap slopes_of(const Image& picture, TexelFormat stored, const Options& options) {
-    if (picture.channels() < 2)
-        throw Error(Errc::cannot_read,
-                    fmt::format("{}: a picture of 1 channel is no du/dv map (2 were expected; one "
-                                "alone may be heights)",
-                                options.source));
-    const double step = code_step(stored);
-    SlopeMap map{Image(picture.width(), picture.height(), 2)};
-    for (int y = 0; y < picture.height(); ++y)
-        for (int x = 0; x < picture.width(); ++x)
-            for (int c = 0; c < 2; ++c) {
-                const float value = picture.at(x, y)[c];
-                if (!std::isfinite(value))
-                    throw Error(Errc::cannot_read,
-                                fmt::format("{}: the slope at column {}, row {} is {} (a finite "
-                                            "number was expected)",
-                                            options.source, x, y, value));
-                // The two codes next to one half both stand for none.
-                const double signed_value = 2 * double{value} - 1;
-                const double slope = !is_integer(stored) ? double{value}
-                                     : std::abs(signed_value) <= 1.001 * step
-                                         ? 0
-                                         : signed_value * options.range;
-                map.slopes.at(x, y)[c] = static_cast<float>(slope);
-            }
-    return map;
-}
-
-NormalMap normals_of(const Image& picture, TexelFormat stored, const Options& options,
-                     const Shared& shared) {
-    NormalFaults faults;
-    NormalMap map = parse_normals(picture, options.from_green, code_step(stored), &faults);
-    const auto note = [&](const std::string& text) {
-        tell(shared, fmt::format("{}: {}", options.source, text));
-    };
-    if (faults.signed_values) note("holds normals as they are, not as 1/2 + n/2");
-    if (faults.inward_count > 0)
-        note(fmt::format("{} normals point into the surface and are turned out of it",
-                         faults.inward_count));
-    if (faults.without_count > 0)
-        note(
-            fmt::format("{} texels have no direction and are taken as flat", faults.without_count));
-    // Four codes of 8 bits; beyond that, no encoder's rounding.
-    if (faults.largest_length_error > 0.03)
-        note(
-            fmt::format("normals are off unit length by up to {:.2g} and are made unit length; is "
-                        "it a normal map?",
-                        faults.largest_length_error));
-    return map;
-}
-
-// Errors of the library know texels, not files.
-template <class F>
-auto named(const std::string& source, const F& work) {
-    try {
-        return work();
-    } catch (const Error& error) {
-        if (std::string_view(error.what()).starts_with(source)) throw;
-        throw Error(error.code(), fmt::format("{}: {}", source, error.what()));
-    }
-}
-
-Bump read_bump(const Options& options, Kind& from, const Shared& shared) {
-    ReadOptions read;
-    read.transfer = options.transfer;
+BumpPicture read_picture(const Options& options, const Shared& shared) {
+    BumpReadOptions read = options.read;
+    if (options.width > 0) read.width = options.width;
     read.memory_limit = shared.memory_limit;
-    const FileContents contents = read_file(options.source, read);
-    const Image& picture = contents.levels.front().front();
-    if (options.transfer == Transfer::srgb && is_integer(contents.stored))
-        tell(shared, fmt::format("{}: decoded from sRGB, as asked", options.source));
-    from = options.from.value_or(is_grey(picture) ? Kind::height : Kind::normal);
-    if (!options.from)
+    BumpPicture bump = read_bump(options.source, read);
+    if (!read.kind)
         tell(shared, fmt::format("{}: taken as a {} map; --from says otherwise", options.source,
-                                 name(from)));
-    return named(options.source, [&]() -> Bump {
-        switch (from) {
-            case Kind::height: {
-                HeightMap relief = heights_of(picture, options, shared);
-                SlopeMap map = slopes(relief);
-                tell_of_relief(relief, options.source, options.has_wrap, shared);
-                return {std::move(relief), std::move(map), {}};
-            }
-            case Kind::normal: {
-                NormalMap map = normals_of(picture, contents.stored, options, shared);
-                return {{}, slopes(map), std::move(map)};
-            }
-            case Kind::dudv:
-                break;
-        }
-        return {{}, slopes_of(picture, contents.stored, options), {}};
-    });
+                                 name(bump.kind)));
+    for (const std::string& remark : bump.remarks)
+        tell(shared, fmt::format("{}: {}", options.source, remark));
+    return bump;
 }
 
-Bump draw_bump(const std::string& builtin, const Options& options) {
+BumpPicture draw_bump(const std::string& builtin, const Options& options) {
     std::vector<std::string> names;
     bool moves = false;
     for (const BumpSource& source : bump_sources()) {
@@ -226,10 +75,10 @@ Bump draw_bump(const std::string& builtin, const Options& options) {
     HeightMap relief = make_bump(builtin, options.size, options.size,
                                  {.width = options.width, .time = options.time});
     for (float& height : relief.heights.values())
-        height = static_cast<float>(height * options.scale);
-    relief.wrap = options.wrap;
+        height = static_cast<float>(height * options.read.scale);
+    relief.wrap = options.read.wrap.value_or(Wrap::repeat);
     SlopeMap map = slopes(relief);
-    return {std::move(relief), std::move(map), {}};
+    return {BumpKind::height, std::move(relief), std::move(map), {}, {}};
 }
 
 // Writing -----------------------------------------------------------------------------------------
@@ -272,17 +121,18 @@ Image stored_slopes(const SlopeMap& map, bool integer, double range) {
     return picture;
 }
 
-Image stored_picture(const Bump& bump, bool integer, const Options& options, const Shared& shared) {
+Image stored_picture(const BumpPicture& bump, bool integer, const Options& options,
+                     const Shared& shared) {
     switch (options.to) {
-        case Kind::height:
+        case BumpKind::height:
             return stored_heights(*bump.relief, integer, options, shared);
-        case Kind::normal:
+        case BumpKind::normal:
             return stored_normals(bump.normals ? *bump.normals : normals(bump.slopes),
                                   options.green);
-        case Kind::dudv:
+        case BumpKind::slopes:
             break;
     }
-    return stored_slopes(bump.slopes, integer, options.range);
+    return stored_slopes(bump.slopes, integer, options.read.range);
 }
 
 Json levels_json(const SlopeMap& map) {
@@ -313,7 +163,7 @@ double steepest(const SlopeMap& map) {
     return most;
 }
 
-void print_result(const Options& options, const Bump& bump, TexelFormat format,
+void print_result(const Options& options, const BumpPicture& bump, TexelFormat format,
                   const WriteReport& report, const Shared& shared) {
     const Image& slopes = bump.slopes.slopes;
     const double angle = std::atan(steepest(bump.slopes)) * 180 / kPi;
@@ -321,18 +171,18 @@ void print_result(const Options& options, const Bump& bump, TexelFormat format,
         if (!shared.quiet)
             print(fmt::format("{}: {} map, {} x {}, {}, at most {:.3g}° steep, {}\n",
                               options.output, name(options.to), slopes.width(), slopes.height(),
-                              mirrorball::name(format), angle, bytes_text(report.byte_count)));
+                              name(format), angle, bytes_text(report.byte_count)));
         return;
     }
     Json json{{"file", options.output},
               {"kind", name(options.to)},
               {"width", slopes.width()},
               {"height", slopes.height()},
-              {"format", mirrorball::name(format)},
+              {"format", name(format)},
               {"bytes", report.byte_count},
               {"clipped_texels", report.clipped_texel_count},
               {"steepest_degrees", angle}};
-    if (options.to == Kind::normal) json["green"] = mirrorball::name(options.green);
+    if (options.to == BumpKind::normal) json["green"] = name(options.green);
     if (bump.relief) {
         const auto values = bump.relief->heights.values();
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -353,7 +203,8 @@ void check_options(const Options& options, bool drawn) {
     MapWriteOptions write;
     write.format = options.format;
     check_target(options.output, write);
-    if (drawn && options.from) throw Error(Errc::usage, "--from: built-in sources are heights");
+    if (drawn && options.read.kind)
+        throw Error(Errc::usage, "--from: built-in sources are heights");
     if (!drawn && options.has_size)
         throw Error(Errc::usage, "--size: only built-in sources have any; files keep their own");
     if (!drawn && options.has_time) throw Error(Errc::usage, "--time: only built-in sources move");
@@ -366,25 +217,24 @@ int run(const Options& options, const Shared& shared) {
     const auto texels = static_cast<std::uint64_t>(options.size) * options.size;
     if (drawn) check_memory(texels * 9 * sizeof(float), "the map", shared);
 
-    Kind from = Kind::height;
-    const Bump bump =
-        drawn ? draw_bump(options.source.substr(8), options) : read_bump(options, from, shared);
-    if (options.to == Kind::height && !bump.relief)
+    const BumpPicture bump =
+        drawn ? draw_bump(options.source.substr(8), options) : read_picture(options, shared);
+    if (options.to == BumpKind::height && !bump.relief)
         throw Error(Errc::usage,
                     fmt::format("--to height: {} holds a {} map, and heights do not follow from it",
-                                options.source, name(from)));
+                                options.source, name(bump.kind)));
     WriteOptions write;
     write.format = format_for(options);
     write.transfer = Transfer::linear;
-    write.metadata = {{"mirrorball.bump", name(options.to)}};
-    if (options.to == Kind::normal)
-        write.metadata["mirrorball.green"] = mirrorball::name(options.green);
+    write.metadata = {{"mirrorball.bump", std::string(name(options.to))}};
+    if (options.to == BumpKind::normal)
+        write.metadata["mirrorball.green"] = std::string(name(options.green));
     const WriteReport report = write_image(
         options.output, stored_picture(bump, is_integer(write.format), options, shared), write);
     if (report.clipped_texel_count > 0)
         tell(shared, fmt::format("{}: {} texels are beyond what the format holds and are clipped{}",
                                  options.output, report.clipped_texel_count,
-                                 options.to == Kind::dudv ? "; --range widens it" : ""));
+                                 options.to == BumpKind::slopes ? "; --range widens it" : ""));
     print_result(options, bump, write.format, report, shared);
     return 0;
 }
@@ -413,18 +263,21 @@ Command bump_command(Shared& shared) {
     command.arguments = {{"IN", "a picture, or builtin:NAME; --list shows those",
                           text(options->source), source_choices(), false}};
     const Choices kinds{{"height", "normal", "dudv"}, true}, greens{{"up", "down"}, true};
-    const SetValue set_from = [&from = options->from](const std::string& typed) {
-        from = parse_kind(typed);
+    BumpReadOptions& read = options->read;
+    const SetValue set_from = [&read](const std::string& typed) {
+        read.kind = parse_bump_kind(typed);
     };
+    const SetValue set_wrap = [&read](const std::string& typed) { read.wrap = parse_wrap(typed); };
     constexpr double kMost = 1e6, kLeast = 1e-6;
     command.options = {
         {"-o,--output", "FILE", "the result: .png .tif .exr .ktx2 ...", text(options->output),
          file_choices()},
         {"--list", "", "the built-in sources there are", flag(options->list)},
-        {"--to", "KIND", "height, normal or dudv [normal]", parsed(options->to, parse_kind), kinds},
+        {"--to", "KIND", "height, normal or dudv [normal]", parsed(options->to, parse_bump_kind),
+         kinds},
         {"--from", "KIND", "of a file [height if it is grey, else normal]", set_from, kinds},
         {"--scale", "METRES", "what a height of 1 in the file stands for; times built-in ones [1]",
-         real_number(options->scale, -kMost, kMost)},
+         real_number(read.scale, -kMost, kMost)},
         {"--width", "METRES", "that the picture covers from left to right [1; built-in: --list]",
          real_number(options->width, kLeast, kMost)},
         {"--size", "N", "edge of a built-in source in texels [512]",
@@ -432,20 +285,20 @@ Command bump_command(Shared& shared) {
         {"--wrap",
          "WAY",
          "beyond the edges: repeat, clamp or mirror [repeat]",
-         noted(parsed(options->wrap, parse_wrap), options->has_wrap),
+         set_wrap,
          {{"repeat", "clamp", "mirror"}, true}},
         {"--green", "WAY", "green of the result points up (OpenGL) or down (Direct3D) [up]",
          parsed(options->green, parse_green), greens},
         {"--from-green", "WAY", "green of the input points up or down [up]",
-         parsed(options->from_green, parse_green), greens},
+         parsed(read.green, parse_green), greens},
         {"--range", "SLOPE", "that 8 and 16 bits of du/dv reach to either side [1]",
-         real_number(options->range, 1e-6, kMost)},
+         real_number(read.range, 1e-6, kMost)},
         {"--time", "SECONDS", "at which a moving source is seen [0]",
          noted(real_number(options->time, -1e9, 1e9), options->has_time)},
         {"--transfer",
          "CURVE",
          "of 8- and 16-bit input [linear]",
-         parsed(options->transfer, parse_transfer),
+         parsed(read.transfer, parse_transfer),
          {{"linear", "srgb"}, true}},
         {"--format", "FORMAT", "of a texel [float32; PNG 16 bits]",
          parsed(options->format, parse_texel_format), texel_format_choices()}};

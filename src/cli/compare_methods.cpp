@@ -1,4 +1,5 @@
 // mirrorball compare-methods: one scene by every method, with the error, bytes and time of each.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -22,13 +23,24 @@ namespace {
 struct Options {
     SceneInput input;
     std::string output;
-    std::vector<Method> methods;
+    std::vector<Method> methods;  ///< none: all that can show the scene
     int samples = 8;
 };
 
 std::vector<Method> parse_methods(const std::string& text) {
     std::vector<Method> methods;
     for (const std::string& part : split(text, ',')) methods.push_back(parse_method(part));
+    return methods;
+}
+
+std::vector<Method> methods_that_can_show(const Scene& scene) {
+    std::vector<Method> methods;
+    for (const Method method : all_methods()) {
+        const auto can = [&](const SceneObject& object) {
+            return can_show(method, object.material.bump);
+        };
+        if (std::all_of(scene.objects.begin(), scene.objects.end(), can)) methods.push_back(method);
+    }
     return methods;
 }
 
@@ -89,9 +101,10 @@ int run(const Options& options, const Shared& shared) {
     ProgressBar bar(shared);
     const LoadedScene loaded = load_scene(input, shared);
     const gl::Context context;
-    const MethodComparison comparison =
-        compare_methods(loaded, input.width, input.height, options.samples, options.methods,
-                        bar.stage("Drawing"));
+    const std::vector<Method> methods =
+        options.methods.empty() ? methods_that_can_show(loaded.scene) : options.methods;
+    const MethodComparison comparison = compare_methods(
+        loaded, input.width, input.height, options.samples, methods, bar.stage("Drawing"));
     const gl::Driver driver = gl::driver();
     write_pictures(comparison, folder.path());
     const Json json = to_json(comparison, driver);
@@ -114,7 +127,6 @@ int run(const Options& options, const Shared& shared) {
 
 Command compare_methods_command(Shared& shared) {
     auto options = std::make_shared<Options>();
-    options->methods = all_methods();
     options->input.width = 640, options->input.height = 480;
     Command command{.name = "compare-methods",
                     .summary = "One object reflecting by every method, each next to the truth."};
@@ -124,8 +136,8 @@ Command compare_methods_command(Shared& shared) {
     command.options = {
         {"-o,--output", "DIR", "folder for the pictures, methods.json and index.html",
          text(options->output), file_choices(), true},
-        {"--methods", "METHOD,...", "to compare [all]", parsed(options->methods, parse_methods),
-         methods},
+        {"--methods", "METHOD,...", "to compare [all that can show the scene]",
+         parsed(options->methods, parse_methods), methods},
         {"--samples", "N", "a pixel [8]", whole_number(options->samples, 1, 1024)}};
     add_picture_size_options(command, options->input);
     add_scene_options(command, options->input);

@@ -16,13 +16,15 @@ namespace mirrorball::cli {
 namespace {
 
 std::vector<Command> all_commands(Shared& shared) {
-    std::vector<Command> commands = {
-        info_command(shared),          convert_command(shared), prefilter_command(shared),
-        irradiance_sh_command(shared), bake_command(shared),    compare_command(shared),
-        sky_command(shared),           bump_command(shared),    projections_command(shared),
-        brdf_command(shared),          fresnel_command(shared), dfg_command(shared),
-        view_stack_command(shared),    render_command(shared),  compare_methods_command(shared),
-        serve_command(shared)};
+    std::vector<Command> commands = {info_command(shared),        convert_command(shared),
+                                     prefilter_command(shared),   irradiance_sh_command(shared),
+                                     bake_command(shared),        compare_command(shared),
+                                     sky_command(shared),         bump_command(shared),
+                                     projections_command(shared), brdf_command(shared),
+                                     fresnel_command(shared),     dfg_command(shared),
+                                     view_stack_command(shared),  render_command(shared),
+                                     view_command(shared),        compare_methods_command(shared),
+                                     serve_command(shared)};
     commands.push_back(completion_command(shared, commands));
     return commands;
 }

@@ -31,6 +31,12 @@ void add(Image& sum, const Image& image) {
                    sum.values().begin(), std::plus<>());
 }
 
+// What classic bump mapping stands for.
+Scene with_turned_normals(Scene scene) {
+    for (SceneObject& object : scene.objects) object.material.bump.form = BumpForm::normals;
+    return scene;
+}
+
 struct Truth {
     Image displayed;
     Image seen;  ///< the share of each pixel's samples that meet an object
@@ -40,13 +46,14 @@ struct Truth {
 // misses it, so that silhouettes do not count.
 Truth evaluate(const LoadedScene& loaded, gl::Renderer& renderer, int width, int height,
                int sample_count) {
+    const Scene scene = with_turned_normals(loaded.scene);
     const ReflectionMaps maps = true_maps(loaded);
     const double exposure = exposure_of(loaded.scene, usual_exposure(loaded.assets->environment));
     Truth truth{Image(width, height, 3), Image(width, height, 1)};
     for (int i = 0; i < sample_count; ++i) {
         const SurfaceBuffer surfaces =
             renderer.surfaces(loaded.scene, width, height, gl::sample_shift(i, sample_count));
-        const Image radiance = shade(loaded.scene, *loaded.assets, maps, surfaces);
+        const Image radiance = shade(scene, *loaded.assets, maps, surfaces);
         add(truth.displayed, tone_mapped(radiance, exposure, loaded.scene.tone_map));
         for (std::size_t k = 0; k < surfaces.object.values().size(); ++k)
             truth.seen.values()[k] += surfaces.object.values()[k] >= 0 ? 1.0f : 0.0f;

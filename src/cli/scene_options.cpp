@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <mirrorball/bump.h>
 #include <mirrorball/error.h>
 #include <mirrorball/material_presets.h>
 #include <mirrorball/mesh.h>
@@ -31,6 +32,10 @@ SetValue edit_material(SceneInput& input, Parse parse, Apply apply) {
     };
 }
 
+std::string same_text(const std::string& text) {
+    return text;
+}
+
 auto number(double least, double most) {
     return [least, most](const std::string& text) { return parse_real_number(text, least, most); };
 }
@@ -43,6 +48,37 @@ Vec3d parse_color(const std::string& text) {
     const auto channel = [](const std::string& part) { return parse_real_number(part, 0, 1); };
     if (parts.size() == 1) return Vec3d(channel(text));
     return {channel(parts[0]), channel(parts[1]), channel(parts[2])};
+}
+
+// So many numbers, as in "0.5,0,0,0.5".
+std::vector<double> parse_numbers(const std::string& text, std::size_t count, double least,
+                                  double most) {
+    const std::vector<std::string> parts = split(text, ',');
+    if (parts.size() != count)
+        throw Error(Errc::usage,
+                    fmt::format("\"{}\" is not {} numbers with commas between them", text, count));
+    std::vector<double> numbers;
+    for (const std::string& part : parts) numbers.push_back(parse_real_number(part, least, most));
+    return numbers;
+}
+
+auto numbers(std::size_t count, double least, double most) {
+    return [=](const std::string& text) { return parse_numbers(text, count, least, most); };
+}
+
+// "4", or "4,2" where it differs along s and t.
+Imath::V2d parse_repeat(const std::string& text) {
+    constexpr double kMost = 1e4;
+    if (text.find(',') == std::string::npos)
+        return Imath::V2d(parse_real_number(text, -kMost, kMost));
+    const std::vector<double> both = parse_numbers(text, 2, -kMost, kMost);
+    return {both[0], both[1]};
+}
+
+Choices bump_choices() {
+    Choices choices = file_choices();
+    for (const BumpSource& source : bump_sources()) choices.values.push_back(source.name);
+    return choices;
 }
 
 Choices names_of(const std::vector<Method>& methods) {
@@ -124,11 +160,6 @@ void check_map_memory(int size, const Shared& shared) {
     check_memory(kBytesPerTexel * 6 * edge * edge, fmt::format("a map of size {}", size), shared);
 }
 
-// Only where there is a scene file do names in the scene mean files beside it.
-std::filesystem::path folder_of(const SceneInput& input) {
-    return std::filesystem::path(input.file).parent_path();
-}
-
 // What a scene file names is beside it; what the command line names is here.
 std::string from_here(const std::string& source) {
     if (source.starts_with("builtin:")) return source;
@@ -194,6 +225,60 @@ void add_scene_options(Command& command, SceneInput& input) {
          edit_material(input, number(0, 1), [](Material& m, double w) { m.transmission = w; })},
         {"--index", "N", "of refraction, of what is transmitted",
          edit_material(input, number(0.01, 100), [](Material& m, double n) { m.index = n; })},
+        {"--bump", "BUMP", "relief: a picture, or a source as mirrorball bump --list names them",
+         edit_material(input, same_text,
+                       [](Material& m, const std::string& source) { m.bump.source = source; }),
+         bump_choices()},
+        {"--bump-kind",
+         "KIND",
+         "of a picture: height, normal or dudv [height if it is grey, else normal]",
+         edit_material(input, parse_bump_kind,
+                       [](Material& m, BumpKind kind) { m.bump.kind = kind; }),
+         {.values = {"height", "normal", "dudv"}, .closed = true}},
+        {"--bump-green",
+         "WAY",
+         "of a picture of normals: up (OpenGL) or down (Direct3D) [up]",
+         edit_material(input, parse_green, [](Material& m, Green green) { m.bump.green = green; }),
+         {.values = {"up", "down"}, .closed = true}},
+        {"--bump-height", "METRES", "what a value of 1 in a picture of heights stands for [1]",
+         edit_material(input, number(-1e6, 1e6),
+                       [](Material& m, double height) { m.bump.height_scale = height; })},
+        {"--bump-width", "METRES", "that the picture covers [1; sources: their own]",
+         edit_material(input, number(1e-6, 1e6),
+                       [](Material& m, double width) { m.bump.width = width; })},
+        {"--bump-repeat", "N[,M]", "tiles along s and t [1]",
+         edit_material(input, parse_repeat,
+                       [](Material& m, const Imath::V2d& repeat) { m.bump.repeat = repeat; })},
+        {"--bump-strength", "K", "multiplies its slopes [1]",
+         edit_material(input, number(-100, 100),
+                       [](Material& m, double strength) { m.bump.strength = strength; })},
+        {"--bump-form",
+         "FORM",
+         "normals, or classic: places on sphere maps move [normals]",
+         edit_material(input, parse_bump_form,
+                       [](Material& m, BumpForm form) { m.bump.form = form; }),
+         {.values = {"normals", "classic"}, .closed = true}},
+        {"--bump-filter",
+         "FILTER",
+         "of what is too fine for a pixel: none, mean or variance [variance]",
+         edit_material(input, parse_bump_filter,
+                       [](Material& m, BumpFilter filter) { m.bump.filter = filter; }),
+         {.values = {"none", "mean", "variance"}, .closed = true}},
+        {"--bump-relief", "DEPTH", "that the eye looks into, in tiles, 0 to 1 [0]",
+         edit_material(input, number(0, 1),
+                       [](Material& m, double depth) { m.bump.relief = depth; })},
+        {"--bump-matrix", "A,B,C,D", "of the classic form, by rows [-0.5,0,0,-0.5]",
+         edit_material(input, numbers(4, -100, 100),
+                       [](Material& m, const std::vector<double>& n) {
+                           m.bump.matrix = {n[0], n[1], n[2], n[3]};
+                       })},
+        {"--bump-luminance", "SCALE,OFFSET", "of the classic form, by the height [0,1]",
+         edit_material(input, numbers(2, -100, 100),
+                       [](Material& m, const std::vector<double>& n) {
+                           m.bump.luminance_scale = n[0], m.bump.luminance_offset = n[1];
+                       })},
+        {"--time", "SECONDS", "of what moves: bumps and lights [0]",
+         edit(input, number(-1e6, 1e6), [](Scene& scene, double time) { scene.time = time; })},
         {"--camera", "YAW,PITCH[,D]",
          "degrees around the objects, and how many times as far as just fits [25,14,1]",
          text(input.camera)},
@@ -220,7 +305,11 @@ void add_picture_size_options(Command& command, SceneInput& input) {
     command.options.push_back({"--height", "N", "[720]", whole_number(input.height, 1, 65536)});
 }
 
-LoadedScene load_scene(const SceneInput& input, const Shared& shared) {
+std::filesystem::path folder_of(const SceneInput& input) {
+    return std::filesystem::path(input.file).parent_path();
+}
+
+Scene scene_of(const SceneInput& input) {
     const bool has_file = !input.file.empty();
     if (has_file &&
         (!input.mesh.empty() || !input.material.empty() || !input.material_edits.empty())) {
@@ -229,20 +318,27 @@ LoadedScene load_scene(const SceneInput& input, const Shared& shared) {
                                 "object is; {} has objects of its own",
                                 input.file));
     }
-    LoadedScene loaded;
-    loaded.scene = has_file ? read_scene(input.file) : Scene{};
-    if (!has_file) loaded.scene.objects.push_back(only_object(input));
-    std::string& source = loaded.scene.environment.source;
+    Scene scene = has_file ? read_scene(input.file) : Scene{};
+    if (!has_file) scene.objects.push_back(only_object(input));
     if (!input.environment.empty())
-        source = has_file ? from_here(input.environment) : input.environment;
-    for (const auto& edit : input.edits) edit(loaded.scene);
+        scene.environment.source = has_file ? from_here(input.environment) : input.environment;
+    for (const auto& edit : input.edits) edit(scene);
+    return scene;
+}
+
+void place_camera_as_asked(Scene& scene, const SceneAssets& assets, const SceneInput& input) {
+    const bool is_asked = input.file.empty() || !input.camera.empty();
+    if (is_asked && !scene.objects.empty()) place_camera(scene, assets, input);
+}
+
+LoadedScene load_scene(const SceneInput& input, const Shared& shared) {
+    LoadedScene loaded{scene_of(input), nullptr};
     check_map_memory(loaded.scene.map_size, shared);
     AssetOptions options;
     options.memory_limit = shared.memory_limit;
     loaded.assets =
         std::make_shared<const SceneAssets>(load_assets(loaded.scene, folder_of(input), options));
-    if ((!has_file || !input.camera.empty()) && !loaded.scene.objects.empty())
-        place_camera(loaded.scene, *loaded.assets, input);
+    place_camera_as_asked(loaded.scene, *loaded.assets, input);
     return loaded;
 }
 

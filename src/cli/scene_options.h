@@ -1,6 +1,7 @@
 // What verbs that draw a scene have in common: a scene file, or one object put together by options.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -30,6 +31,14 @@ void add_scene_argument(Command& command, SceneInput& input);
 void add_scene_options(Command& command, SceneInput& input);
 /// --width and --height.
 void add_picture_size_options(Command& command, SceneInput& input);
+
+/// The scene before anything that it names is loaded. \throws Error(Errc::usage) for options that
+/// do not go together; what read_scene() throws
+[[nodiscard]] Scene scene_of(const SceneInput& input);
+/// Where names in the scene are those of files: only where there is a scene file is that beside it.
+[[nodiscard]] std::filesystem::path folder_of(const SceneInput& input);
+/// Where the options or, without a scene file, what is usual would have it.
+void place_camera_as_asked(Scene& scene, const SceneAssets& assets, const SceneInput& input);
 
 struct LoadedScene {
     Scene scene;

@@ -24,6 +24,7 @@ namespace mirrorball::cli {
 [[nodiscard]] Command dfg_command(Shared& shared);
 [[nodiscard]] Command view_stack_command(Shared& shared);
 [[nodiscard]] Command render_command(Shared& shared);
+[[nodiscard]] Command view_command(Shared& shared);
 [[nodiscard]] Command compare_methods_command(Shared& shared);
 /// The script for the shell, from the table of all commands.
 [[nodiscard]] Command completion_command(Shared& shared, const std::vector<Command>& commands);

@@ -63,10 +63,11 @@ void ObjectMaps::make_shown(const Axes& camera) {
     if (shown_) shown_->make(cubes(key_.depth_count), cube_axes(), camera);
 }
 
-// They hold radiance as it is, and what they show is seen from the object itself: no proxy.
+// They hold radiance as it is, and what they show is seen from the object itself: no proxy. There
+// is no GGX chain: made for each picture, it would cost more than all else.
 LookupMaps ObjectMaps::lookup_cubes(int depth) const {
     const MapTextures& textures = cubes(depth);
-    return {Method::cube, cube_axes(), &textures, &textures.diffuse, 0, 1, {}, Vec3d(0)};
+    return {Method::cube, cube_axes(), &textures, &textures.diffuse, 0, 0, 1, {}, Vec3d(0)};
 }
 
 LookupMaps ObjectMaps::lookup_shown() const {

@@ -1,4 +1,5 @@
-// What is made in between leaves the framebuffer that the caller draws into as it was.
+// What is made in between leaves the framebuffer that the caller draws into, and the viewport, as
+// they were.
 #pragma once
 
 #include "gl.h"
@@ -10,16 +11,18 @@ class FramebufferGuard {
     FramebufferGuard() {
         glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawn_into_);
         glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_from_);
+        glGetIntegerv(GL_VIEWPORT, viewport_);
     }
     ~FramebufferGuard() {
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawn_into_));
         glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_from_));
+        glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
     }
     FramebufferGuard(const FramebufferGuard&) = delete;
     FramebufferGuard& operator=(const FramebufferGuard&) = delete;
 
   private:
-    GLint drawn_into_ = 0, read_from_ = 0;
+    GLint drawn_into_ = 0, read_from_ = 0, viewport_[4] = {};
 };
 
 }  // namespace mirrorball::gl

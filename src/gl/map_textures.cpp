@@ -8,7 +8,7 @@ Imath::M33f to_map_matrix(const Axes& axes) {
 }
 
 std::uint64_t MapTextures::bytes() const {
-    std::uint64_t sum = mirror.bytes() + diffuse.bytes();
+    std::uint64_t sum = mirror.bytes() + diffuse.bytes() + rough.bytes();
     for (const Texture& texture : glossy) sum += texture.bytes();
     return sum;
 }

@@ -20,6 +20,7 @@ struct MapTextures {
     Texture mirror;
     std::vector<Texture> glossy;  ///< in the order of the lobes
     Texture diffuse;
+    Texture rough;  ///< mipmapped: see ReflectionMaps
     // Of split polygons, which know one face each.
     std::vector<Texture> mirror_faces;
     std::vector<std::vector<Texture>> glossy_faces;  ///< [lobe][face]
@@ -33,9 +34,10 @@ struct LookupMaps {
     Axes axes;  ///< of the lookup
     const MapTextures* textures = nullptr;
     const Texture* diffuse = nullptr;
-    std::size_t lobe = 0;  ///< the index of the material's own, if it has one
-    double intensity = 1;  ///< that the maps' light is multiplied by
-    Proxy proxy;           ///< for the places that the maps show
+    std::size_t lobe = 0;     ///< the index of the material's own, if it has one
+    double mirror_alpha = 0;  ///< for rough_place(), if there are rough maps
+    double intensity = 1;     ///< that the maps' light is multiplied by
+    Proxy proxy;              ///< for the places that the maps show
     Vec3d captured_at{0};
 };
 

@@ -8,7 +8,7 @@ namespace mirrorball::gl {
 namespace {
 
 // Locations in shaders/surface.vert.
-enum Attribute : GLuint { kPosition, kNormal, kTextureCoordinate, kSplitPlace };
+enum Attribute : GLuint { kPosition, kNormal, kTextureCoordinate, kSplitPlace, kTangent };
 
 template <class T>
 void attach(const Buffer& buffer, Attribute attribute, const std::vector<T>& values) {
@@ -33,7 +33,8 @@ MeshBuffers::MeshBuffers(const Mesh& mesh)
     attach(buffers_[0], kPosition, mesh.positions);
     attach(buffers_[1], kNormal, mesh.normals);
     attach(buffers_[2], kTextureCoordinate, mesh.texture_coordinates);
-    attach_indices(buffers_[3], mesh.indices);
+    attach(buffers_[3], kTangent, mesh.tangents);
+    attach_indices(buffers_[4], mesh.indices);
     glBindVertexArray(0);
     check("taking a mesh");
 }

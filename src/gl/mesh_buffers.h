@@ -18,7 +18,7 @@ class MeshBuffers {
 
   private:
     VertexArray array_;
-    std::array<Buffer, 4> buffers_;  // positions, normals, texture coordinates, indices
+    std::array<Buffer, 5> buffers_;  // positions, normals, texture coordinates, tangents, indices
     GLsizei index_count_;
     Bounds bounds_;
 };

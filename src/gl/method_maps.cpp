@@ -31,16 +31,17 @@ Form form_of(Method method) {
     }
 }
 
-int level_count_for(const Texture& cube, int width, int height) {
-    return cube.level_count == 1 ? 1 : 1 + static_cast<int>(std::log2(std::max(width, height)));
+// All that there can be, if the cube has any.
+int mip_level_count(const Form& form, const Texture& cube) {
+    const int largest = std::max(form.widths, form.heights) * cube.width;
+    return cube.level_count == 1 ? 1 : 1 + static_cast<int>(std::log2(largest));
 }
 
 // Nothing for what is not there.
-Texture room(const Form& form, const Texture& cube) {
+Texture room(const Form& form, const Texture& cube, int level_count) {
     if (cube.empty()) return {};
-    const int width = form.widths * cube.width, height = form.heights * cube.width;
-    Texture texture = make_texture(form.target, width, height, level_count_for(cube, width, height),
-                                   form.layer_count);
+    Texture texture = make_texture(form.target, form.widths * cube.width, form.heights * cube.width,
+                                   level_count, form.layer_count);
     if (form.first_shape == Warp::Shape::equirect)
         glTexParameteri(form.target, GL_TEXTURE_WRAP_S, GL_REPEAT);
     return texture;
@@ -75,21 +76,36 @@ MethodMaps::MethodMaps(Method method, const MapTextures& cubes)
         return;  // what is looked up by the normal stays a cube
     }
     const Form form = form_of(method);
-    textures_.mirror = room(form, cubes.mirror);
-    for (const Texture& cube : cubes.glossy) textures_.glossy.push_back(room(form, cube));
-    textures_.diffuse = room(form, cubes.diffuse);
+    textures_.mirror = room(form, cubes.mirror, mip_level_count(form, cubes.mirror));
+    for (const Texture& cube : cubes.glossy) textures_.glossy.push_back(room(form, cube, 1));
+    textures_.diffuse = room(form, cubes.diffuse, 1);
+    textures_.rough = room(form, cubes.rough, cubes.rough.level_count);
+}
+
+template <class WarpLayer>
+void MethodMaps::for_each_layer(WarpLayer&& warp_layer) {
+    const Form form = form_of(method_);
+    for (int layer = 0; layer < form.layer_count; ++layer) {
+        const bool back = form.first_shape == Warp::Shape::front_paraboloid && layer == 1;
+        warp_layer(back ? Warp::Shape::back_paraboloid : form.first_shape, layer);
+    }
 }
 
 void MethodMaps::make(const Texture& cube, const Axes& cube_axes, const Axes& made_for,
                       const Texture& into) {
     if (into.empty()) return;
-    const Form form = form_of(method_);
-    for (int layer = 0; layer < form.layer_count; ++layer) {
-        const bool back = form.first_shape == Warp::Shape::front_paraboloid && layer == 1;
-        warp_(cube, cube_axes, back ? Warp::Shape::back_paraboloid : form.first_shape, made_for,
-              into, layer, layer);
-    }
+    for_each_layer([&](Warp::Shape shape, int layer) {
+        warp_(cube, cube_axes, shape, made_for, into, layer, layer);
+    });
     make_levels(into);
+}
+
+// Its levels are not each other's means: each is made of the cube's own.
+void MethodMaps::make_rough(const Texture& cube, const Axes& cube_axes, const Axes& made_for) {
+    for_each_layer([&](Warp::Shape shape, int layer) {
+        for (int level = 0; level < textures_.rough.level_count; ++level)
+            warp_.level(level, cube, cube_axes, shape, made_for, textures_.rough, layer, layer);
+    });
 }
 
 void MethodMaps::make_faces(const Texture& cube, const Axes& cube_axes,
@@ -117,6 +133,7 @@ void MethodMaps::make(const MapTextures& cubes, const Axes& cube_axes, const Axe
     for (std::size_t i = 0; i < cubes.glossy.size(); ++i)
         make(cubes.glossy[i], cube_axes, made_for, textures_.glossy[i]);
     make(cubes.diffuse, cube_axes, made_for, textures_.diffuse);
+    if (!textures_.rough.empty()) make_rough(cubes.rough, cube_axes, made_for);
 }
 
 }  // namespace mirrorball::gl

@@ -22,8 +22,12 @@ class MethodMaps {
     [[nodiscard]] const Axes& axes() const { return axes_; }
 
   private:
+    // Calls it with each layer of the method's textures, and its shape.
+    template <class WarpLayer>
+    void for_each_layer(WarpLayer&& warp_layer);
     void make(const Texture& cube, const Axes& cube_axes, const Axes& made_for,
               const Texture& into);
+    void make_rough(const Texture& cube, const Axes& cube_axes, const Axes& made_for);
     void make_faces(const Texture& cube, const Axes& cube_axes, const std::vector<Texture>& into);
 
     Method method_;

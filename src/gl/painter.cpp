@@ -17,7 +17,18 @@ namespace mirrorball::gl {
 namespace {
 
 // Texture units; one each, so that nothing is bound where something else is looked for.
-enum Unit { kMirrorUnit, kGlossyUnit, kDiffuseUnit, kFresnelUnit, kDfgUnit, kBaseColorUnit };
+enum Unit {
+    kMirrorUnit,
+    kGlossyUnit,
+    kDiffuseUnit,
+    kFresnelUnit,
+    kDfgUnit,
+    kBaseColorUnit,
+    kRoughUnit,
+    kBumpUnit,
+    kLightMapUnit,
+    kFloorUnit
+};
 
 std::string_view glsl_name(Method method) {
     switch (method) {
@@ -93,6 +104,51 @@ std::string_view glsl_name(Output output) {
     return {};
 }
 
+std::string_view glsl_name(BumpForm form) {
+    return form == BumpForm::normals ? "NORMALS" : "CLASSIC";
+}
+
+std::string_view glsl_name(BumpFilter filter) {
+    switch (filter) {
+        case BumpFilter::none:
+            return "NONE";
+        case BumpFilter::mean:
+            return "MEAN";
+        case BumpFilter::variance:
+            return "VARIANCE";
+    }
+    return {};
+}
+
+// Classic bumps are on sphere maps only: other objects' cube maps show the surface without.
+bool has_bump(const Material& material, const LookupMaps& maps) {
+    return !material.bump.is_smooth() && can_show(maps.method, material.bump);
+}
+
+bool has_light_map(const Scene& scene, const Material& material, const LookupMaps& maps) {
+    return has_bump(material, maps) && material.bump.form == BumpForm::classic &&
+           !scene.lights.empty();
+}
+
+Definitions light_definitions(const Scene& scene, const Material& material) {
+    return {fmt::format("LIGHT_COUNT {}", scene.lights.size()),
+            fmt::format("LOBE {}", glsl_name(material.lobe.kind))};
+}
+
+void add_bump_definitions(Definitions& definitions, const BumpMap& bump, const LookupMaps& maps) {
+    definitions.emplace_back("HAS_BUMP");
+    definitions.emplace_back("HAS_TANGENTS");
+    definitions.push_back(fmt::format("BUMP_FORM {}", glsl_name(bump.form)));
+    definitions.push_back(fmt::format("BUMP_FILTER {}", glsl_name(bump.filter)));
+    if (bump.form == BumpForm::classic) return;
+    if (bump.relief > 0) definitions.emplace_back("HAS_RELIEF");
+    if (bump.horizon) definitions.emplace_back("HAS_HORIZON");
+    if (bump.filter == BumpFilter::none) definitions.emplace_back("FINEST_ONLY");
+    // Maps of dynamic objects have no chain: there the mean is all that is shown.
+    if (bump.filter == BumpFilter::variance && !maps.textures->rough.empty())
+        definitions.emplace_back("HAS_ROUGH_MAP");
+}
+
 // What a program needs to know when it is compiled, and no more: what differs from object to object
 // only by numbers shares one.
 Definitions definitions_for(const Scene& scene, const Material& material, const LookupMaps& maps,
@@ -107,9 +163,16 @@ Definitions definitions_for(const Scene& scene, const Material& material, const 
     if (material.transmission > 0) definitions.emplace_back("HAS_TRANSMISSION");
     if (material.emission > 0) definitions.emplace_back("HAS_EMISSION");
     if (!material.base_color_map.empty()) definitions.emplace_back("HAS_BASE_COLOR_MAP");
-    if (!scene.lights.empty()) {
-        definitions.push_back(fmt::format("LIGHT_COUNT {}", scene.lights.size()));
-        definitions.push_back(fmt::format("LOBE {}", glsl_name(material.lobe.kind)));
+    if (material.floor) {
+        definitions.emplace_back("HAS_FLOOR");
+        if (!material.floor->color_map.empty()) definitions.emplace_back("HAS_FLOOR_MAP");
+    }
+    if (has_bump(material, maps)) add_bump_definitions(definitions, material.bump, maps);
+    if (has_light_map(scene, material, maps)) {
+        definitions.emplace_back("HAS_LIGHT_MAP");
+    } else if (!scene.lights.empty()) {
+        const Definitions lights = light_definitions(scene, material);
+        definitions.insert(definitions.end(), lights.begin(), lights.end());
     }
     if (shot.layered()) definitions.emplace_back("SIX_VIEWS");
     return definitions;
@@ -197,6 +260,10 @@ Imath::M33f normal_matrix(const Imath::M44d& m) {
     return Imath::M33f(turn);
 }
 
+float handedness(const Imath::M44d& m) {
+    return m.determinant() < 0 ? -1.0f : 1.0f;
+}
+
 int map_size(const Scene& scene, const SceneAssets& assets) {
     return scene.map_size > 0 ? scene.map_size
                               : mirror_map_size(assets.environment, Projection::cube);
@@ -252,9 +319,52 @@ void Painter::set_material(const Program& program, const Material& material) {
         program.set("u_f0", material.fresnel(1));
         program.set("u_f90", material.fresnel(0));
     }
+    if (material.floor) {
+        const Floor& floor = *material.floor;
+        program.set("u_floor_height", static_cast<float>(floor.height));
+        program.set("u_floor_color", floor.color);
+        program.set("u_floor_absorption", floor.absorption);
+        program.set("u_floor_width", static_cast<float>(floor.color_width));
+        if (!floor.color_map.empty()) textures_.picture(floor.color_map).bind(kFloorUnit);
+        program.set("u_floor_map", kFloorUnit);
+    }
     if (!material.base_color_map.empty()) {
         textures_.picture(material.base_color_map).bind(kBaseColorUnit);
         program.set("u_base_color_map", kBaseColorUnit);
+    }
+}
+
+void Painter::set_bump(const Program& program, const BumpMap& bump, double time) {
+    bumps_.get(bump, time).bind(kBumpUnit);
+    program.set("u_bump_map", kBumpUnit);
+    program.set("u_bump_strength", static_cast<float>(bump.strength));
+    program.set("u_bump_repeat", Imath::V2f(bump.repeat));
+    program.set("u_bump_offset", Imath::V2f(offset_at(bump, time)));
+    program.set("u_bump_relief", static_cast<float>(bump.relief));
+    const Imath::M22f m(matrix_at(bump, time));
+    const Imath::V4f rows(m[0][0], m[0][1], m[1][0], m[1][1]);
+    program.set("u_bump_matrix", std::span(&rows, 1));
+    program.set("u_bump_luminance", Imath::V2f(static_cast<float>(bump.luminance_scale),
+                                               static_cast<float>(bump.luminance_offset)));
+}
+
+// Of an eye at +z of the maps' own frame, for the object's middle.
+void Painter::make_light_map(const Scene& scene, const SceneObject& object,
+                             const LookupMaps& maps) {
+    if (!light_map_) light_map_.emplace();
+    const Material& material = object.material;
+    for (int layer = 0; layer < 2; ++layer) {
+        Definitions definitions = light_definitions(scene, material);
+        definitions.push_back(fmt::format("LAYER {}", layer));
+        definitions.push_back(fmt::format("COUPLING {}", glsl_name(material.coupling)));
+        if (material.glossy > 0) definitions.emplace_back("HAS_GLOSSY");
+        const Program& program = programs_.get("full.vert", "light_map.frag", definitions);
+        program.use();
+        set_material(program, material);
+        set_lights(program, lights_now(scene));
+        program.set("u_centre", object.transform.point(buffers_of(object).bounds().centre()));
+        program.set("u_to_world", to_map_matrix(maps.axes).transposed());
+        light_map_->draw(layer, program);
     }
 }
 
@@ -269,6 +379,13 @@ void Painter::set_maps(const Program& program, const Material& material,
     if (maps.method != Method::cube_split) {
         maps.textures->mirror.bind(kMirrorUnit);
         if (material.glossy > 0) maps.textures->glossy[maps.lobe].bind(kGlossyUnit);
+    }
+    const Texture& rough = maps.textures->rough;
+    if (!rough.empty()) {
+        rough.bind(kRoughUnit);
+        program.set("u_rough_map", kRoughUnit);
+        program.set("u_rough_levels", static_cast<float>(rough.level_count));
+        program.set("u_mirror_alpha", static_cast<float>(maps.mirror_alpha));
     }
     program.set("u_mirror_map", kMirrorUnit);
     program.set("u_glossy_map", kGlossyUnit);
@@ -312,6 +429,8 @@ void Painter::object(const Scene& scene, const SceneObject& object, const Lookup
 
 void Painter::draw_object(const Scene& scene, const SceneObject& object, const LookupMaps& maps,
                           const Shot& shot, int pass) {
+    const bool has_light_map = gl::has_light_map(scene, object.material, maps);
+    if (has_light_map) make_light_map(scene, object, maps);
     const Program& program = programs_.get(
         "surface.vert", "surface.frag", definitions_for(scene, object.material, maps, pass, shot),
         shot.layered() ? "surface.geom" : "");
@@ -319,11 +438,18 @@ void Painter::draw_object(const Scene& scene, const SceneObject& object, const L
     const Imath::M44d to_world = matrix(object.transform);
     program.set("u_to_world", Imath::M44f(to_world));
     program.set("u_normal_to_world", normal_matrix(to_world));
+    program.set("u_handedness", handedness(to_world));
     set_to_clip(program, shot);
     program.set("u_eye", shot.views[0].eye);
     set_material(program, object.material);
     set_maps(program, object.material, maps);
-    set_lights(program, scene.lights);
+    if (has_bump(object.material, maps)) set_bump(program, object.material.bump, scene.time);
+    if (has_light_map) {
+        light_map_->texture().bind(kLightMapUnit);
+        program.set("u_light_map", kLightMapUnit);
+    } else {
+        set_lights(program, lights_now(scene));
+    }
     set_display(program, scene);
     if (maps.method == Method::cube_split) {
         draw_split(object, shot.views[0].eye, maps, program);

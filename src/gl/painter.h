@@ -11,6 +11,8 @@
 #include <mirrorball/scene.h>
 #include <mirrorball/scene_assets.h>
 
+#include "bump_textures.h"
+#include "light_map.h"
 #include "map_textures.h"
 #include "material_textures.h"
 #include "mesh_buffers.h"
@@ -42,12 +44,15 @@ struct Shot {
 
 /// Takes normals along with a matrix of positions.
 [[nodiscard]] Imath::M33f normal_matrix(const Imath::M44d& m);
+/// 1, or -1 of a matrix that mirrors.
+[[nodiscard]] float handedness(const Imath::M44d& m);
 
 class Painter {
   public:
     explicit Painter(std::shared_ptr<const SceneAssets> assets)
         : assets_(assets),
-          textures_(std::move(assets)) {}
+          textures_(assets),
+          bumps_(std::move(assets)) {}
 
     /// Clears and sets what OpenGL is to do; the viewport is the caller's business.
     void begin();
@@ -67,6 +72,8 @@ class Painter {
     void draw_split(const SceneObject& object, const Vec3d& eye, const LookupMaps& maps,
                     const Program& program);
     void set_material(const Program& program, const Material& material);
+    void set_bump(const Program& program, const BumpMap& bump, double time);
+    void make_light_map(const Scene& scene, const SceneObject& object, const LookupMaps& maps);
     void set_maps(const Program& program, const Material& material, const LookupMaps& maps) const;
     void set_display(const Program& program, const Scene& scene);
     const Texture& background_for(const Scene& scene);
@@ -75,6 +82,8 @@ class Painter {
     std::shared_ptr<const SceneAssets> assets_;
     ProgramCache programs_;
     MaterialTextures textures_;
+    BumpTextures bumps_;
+    std::optional<LightMap> light_map_;  // of the object that is drawn
     std::map<std::string, MeshBuffers> buffers_;
     std::optional<Texture> background_;
     int background_size_ = 0;

@@ -40,6 +40,18 @@ void check_dynamic(const DynamicReflection& dynamic) {
     }
 }
 
+void check_bump(const SceneObject& object, Method method) {
+    if (can_show(method, object.material.bump)) return;
+    std::string able;
+    for (const Method other : all_methods()) {
+        if (can_show(other, object.material.bump))
+            able += fmt::format("{}{}", able.empty() ? "" : ", ", name(other));
+    }
+    throw Error(Errc::usage,
+                fmt::format("method {} cannot show a bump map of the form {}; those that can: {}",
+                            name(method), name(object.material.bump.form), able));
+}
+
 void check_scene(const Scene& scene) {
     if (scene.lights.size() > kMostLights) {
         throw Error(Errc::usage, fmt::format("a scene may have {} lights, this one has {}",
@@ -47,12 +59,22 @@ void check_scene(const Scene& scene) {
     }
     for (const SceneObject& object : scene.objects) {
         if (object.dynamic) check_dynamic(*object.dynamic);
+        check_bump(object, scene.method);
     }
 }
 
 bool has_dynamic_objects(const Scene& scene) {
     return std::any_of(scene.objects.begin(), scene.objects.end(),
                        [](const SceneObject& object) { return object.dynamic.has_value(); });
+}
+
+// Does variance of bumps turn into roughness anywhere?
+bool gets_rougher(const Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& object) {
+        const BumpMap& bump = object.material.bump;
+        return !bump.is_smooth() && bump.form == BumpForm::normals &&
+               bump.filter == BumpFilter::variance;
+    });
 }
 
 }  // namespace
@@ -78,6 +100,7 @@ class Renderer::Impl {
         Method method;
         int size;
         std::vector<Lobe> lobes;
+        bool rough;
         bool operator==(const MapsKey&) const = default;
     };
     struct KeptMaps {
@@ -99,10 +122,10 @@ class Renderer::Impl {
 };
 
 SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method, KeptMaps& kept) {
-    MapsKey key{method, map_size(scene, *assets_), lobes_of(scene)};
+    MapsKey key{method, map_size(scene, *assets_), lobes_of(scene), gets_rougher(scene)};
     if (kept.key != key) {
         kept.key.reset();
-        kept.maps.emplace(assets_->environment, key.method, key.size, key.lobes);
+        kept.maps.emplace(assets_->environment, key.method, key.size, key.lobes, key.rough);
         kept.key = std::move(key);
     }
     return *kept.maps;
@@ -208,31 +231,38 @@ SurfaceBuffer Renderer::Impl::surfaces(const Scene& scene, int width, int height
                                        const Imath::V2d& shift) {
     const View view = view_of(scene.camera, static_cast<double>(width) / height,
                               {2 * shift.x / width, 2 * shift.y / height});
-    const Target target(width, height, 3);
+    const Target target(width, height, 4);
     target.bind();
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     constexpr float kNothing[4] = {0, 0, 0, -1};
-    for (int i = 0; i < 3; ++i) glClearBufferfv(GL_COLOR, i, kNothing);
+    for (int i = 0; i < 4; ++i) glClearBufferfv(GL_COLOR, i, kNothing);
     glClear(GL_DEPTH_BUFFER_BIT);
-    const Program& program = programs_.get("surface.vert", "facts.frag", {"METHOD CUBE"});
+    const Program& program =
+        programs_.get("surface.vert", "facts.frag", {"METHOD CUBE", "HAS_TANGENTS"});
     program.use();
     program.set("u_to_clip", Imath::M44f(view.to_clip));
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Imath::M44d to_world = matrix(scene.objects[i].transform);
         program.set("u_to_world", Imath::M44f(to_world));
         program.set("u_normal_to_world", normal_matrix(to_world));
+        program.set("u_handedness", handedness(to_world));
         program.set("u_object", static_cast<float>(i));
         painter_.buffers_of(scene.objects[i]).draw();
     }
     check("drawing surfaces");
-    SurfaceBuffer buffer{target.read(3, 0), target.read(3, 1), Image(width, height, 1),
-                         target.read(2, 2)};
-    const Image with_object = target.read(4, 0);
+    SurfaceBuffer buffer{target.read(3, 0),       target.read(3, 1), Image(width, height, 1),
+                         Image(width, height, 2), target.read(3, 2), target.read(3, 3)};
+    const Image with_object = target.read(4, 0), with_s = target.read(4, 1),
+                with_t = target.read(4, 2);
     for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) *buffer.object.at(x, y) = with_object.at(x, y)[3];
+        for (int x = 0; x < width; ++x) {
+            *buffer.object.at(x, y) = with_object.at(x, y)[3];
+            buffer.texture_coordinates.at(x, y)[0] = with_s.at(x, y)[3];
+            buffer.texture_coordinates.at(x, y)[1] = with_t.at(x, y)[3];
+        }
     }
     return buffer;
 }

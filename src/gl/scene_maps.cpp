@@ -20,11 +20,28 @@ int size_as_fine(const EnvironmentMap& environment, Projection projection, int s
     return static_cast<int>(std::lround(finer * size));
 }
 
+// Methods that find the place on the map at the vertices cannot choose a roughness at each pixel.
+bool finds_pixels(Method method) {
+    switch (method) {
+        case Method::sphere_vertex:
+        case Method::cube_vertex:
+        case Method::cube_split:
+        case Method::dual_paraboloid_vertex:
+        case Method::dual_paraboloid_passes:
+            return false;
+        default:
+            return true;
+    }
+}
+
 MapTextures upload_all(const ReflectionMaps& maps, Method method) {
     const auto take = [&](const EnvironmentMap& map) {
         return method == Method::cube_seams ? upload_face_array(map) : upload(map);
     };
-    MapTextures textures{take(maps.mirror), {}, take(maps.diffuse), {}, {}};
+    MapTextures textures;
+    textures.mirror = take(maps.mirror);
+    textures.diffuse = take(maps.diffuse);
+    if (maps.rough.level_count() > 0) textures.rough = take(maps.rough);
     for (const EnvironmentMap& map : maps.glossy) textures.glossy.push_back(take(map));
     if (method == Method::cube_split) {
         textures.mirror_faces = upload_faces(maps.mirror);
@@ -37,16 +54,18 @@ MapTextures upload_all(const ReflectionMaps& maps, Method method) {
 }  // namespace
 
 SceneMaps::SceneMaps(const EnvironmentMap& environment, Method method, int size,
-                     std::span<const Lobe> lobes)
+                     std::span<const Lobe> lobes, bool rough)
     : method_(method),
+      size_(size),
       lobes_(lobes.begin(), lobes.end()) {
     const Projection projection = is_warped(method) ? Projection::cube : projection_of(method);
     axes_ = default_axes(projection);
     const int map_size = size_as_fine(environment, projection, size);
     // Before it takes time and memory.
     check_texture_size(target_for(projection), map_size, 1);
-    maps_ =
-        upload_all(make_reflection_maps(environment, lobes, projection, map_size, axes_), method);
+    const ReflectionMapOptions options{.rough = rough && finds_pixels(method)};
+    maps_ = upload_all(
+        make_reflection_maps(environment, lobes, projection, map_size, axes_, options), method);
     if (is_warped(method)) warped_.emplace(method, maps_);
 }
 
@@ -64,6 +83,7 @@ LookupMaps SceneMaps::lookup(const Material& material, const SceneEnvironment& e
             &shown(),
             &shown().diffuse,
             static_cast<std::size_t>(found - lobes_.begin()),
+            mirror_alpha(size_),
             environment.intensity,
             environment.proxy,
             environment.captured_at};

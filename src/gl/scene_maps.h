@@ -15,9 +15,10 @@ namespace mirrorball::gl {
 
 class SceneMaps {
   public:
-    /// `size` is the edge of a cube's face; other maps are as fine as such a cube.
+    /// `size` is the edge of a cube's face; other maps are as fine as such a cube. Maps of
+    /// every roughness are made if they are asked for and the method looks up at each pixel.
     SceneMaps(const EnvironmentMap& environment, Method method, int size,
-              std::span<const Lobe> lobes);
+              std::span<const Lobe> lobes, bool rough = false);
 
     /// Re-makes maps that depend on where the camera looks.
     void look_from(const Axes& camera);
@@ -32,6 +33,7 @@ class SceneMaps {
     [[nodiscard]] const MapTextures& shown() const { return warped_ ? warped_->textures() : maps_; }
 
     Method method_;
+    int size_;
     std::vector<Lobe> lobes_;
     Axes axes_;  // of maps_
     MapTextures maps_;

@@ -144,6 +144,16 @@ Texture upload(const Image& image, bool mips) {
     return texture;
 }
 
+Texture upload(std::span<const Image> levels) {
+    const Image& first = levels.front();
+    Texture texture =
+        make_texture(GL_TEXTURE_2D, first.width(), first.height(), static_cast<int>(levels.size()));
+    for (int level = 0; level < texture.level_count; ++level)
+        fill(texture, level, 0, levels[static_cast<std::size_t>(level)]);
+    check("taking the levels of a picture");
+    return texture;
+}
+
 Texture upload(const EnvironmentMap& map) {
     Texture texture = upload_as(target_for(map.projection), map);
     if (map.projection == Projection::equirect)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <mirrorball/environment_map.h>
@@ -44,6 +45,9 @@ void make_cubes_seamless();
 
 /// Fills a texture's levels. Values that a half float cannot hold are clamped.
 [[nodiscard]] Texture upload(const Image& image, bool mips = false);
+
+/// All levels of a picture, each half the one before, rounded down.
+[[nodiscard]] Texture upload(std::span<const Image> levels);
 
 /// A cube as a cube texture, a panorama, which repeats sideways, or an octahedral map as one
 /// picture. Maps with rims are made by Warp.

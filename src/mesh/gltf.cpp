@@ -23,6 +23,7 @@
 #include <nlohmann/json.hpp>
 
 #include "readers.h"
+#include "tangents.h"
 
 namespace mirrorball::detail {
 namespace {
@@ -508,6 +509,22 @@ struct NormalTransform {
     }
 };
 
+// Tangents go where points go, and the third axis turns around with a mirrored picture.
+struct TangentTransform {
+    Imath::M44d to_world;
+    float sign;
+
+    explicit TangentTransform(const Imath::M44d& m)
+        : to_world(m),
+          sign(NormalTransform(m).mirrored ? -1.0f : 1.0f) {}
+
+    [[nodiscard]] Vec4f operator()(const Vec3d& tangent, double handedness) const {
+        Vec3d turned;
+        to_world.multDirMatrix(tangent, turned);
+        return tangent_of(turned.normalized(), sign * static_cast<float>(handedness));
+    }
+};
+
 class SceneFlattener {
   public:
     SceneFlattener(const InputFile& file, const tinygltf::Model& model, std::uint64_t memory_limit)
@@ -545,6 +562,7 @@ class SceneFlattener {
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
                 visits.push_back({*child, to_world});
         }
+        if (!mesh_.tangents.empty()) mesh_.tangents.resize(mesh_.positions.size(), Vec4f(0));
         return std::move(mesh_);
     }
 
@@ -592,7 +610,8 @@ class SceneFlattener {
             if (indices->is_float()) file_.fail("indices are not integers");
         }
         const std::size_t corners = indices ? indices->count() : count;
-        reserve(count, corners);
+        const bool has_tangents = primitive.attributes.contains("TANGENT");
+        reserve(count, corners, has_tangents);
 
         const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
         add_vertices(primitive, *positions, to_world);
@@ -620,10 +639,11 @@ class SceneFlattener {
     }
 
     // Refuses what cannot be held, before it is.
-    void reserve(std::size_t vertices, std::size_t corners) {
-        constexpr double kPerVertex = 32, kPerCorner = 12;  // strips: three indices for each
+    void reserve(std::size_t vertices, std::size_t corners, bool has_tangents) {
+        constexpr double kPerCorner = 12;  // strips: three indices for each
+        const double per_vertex = has_tangents ? 48 : 32;
         memory_ +=
-            kPerVertex * static_cast<double>(vertices) + kPerCorner * static_cast<double>(corners);
+            per_vertex * static_cast<double>(vertices) + kPerCorner * static_cast<double>(corners);
         check_memory(file_, memory_, memory_limit_);
         constexpr std::size_t kMostVertices = std::numeric_limits<std::uint32_t>::max() - 1;
         if (vertices > kMostVertices - mesh_.positions.size())
@@ -656,6 +676,8 @@ class SceneFlattener {
             mesh_.positions.emplace_back(position + to_world.translation());
             mesh_.normals.push_back(normals ? turned(normals->vector(i)) : Vec3f(0));
         }
+        // Tangents are of the normals beside them: glTF has those without passed over.
+        if (normals) add_tangents(primitive, base, count, to_world);
         if (!coordinates && mesh_.texture_coordinates.empty()) return;
         mesh_.texture_coordinates.resize(base, Vec2f(0));
         for (std::size_t i = 0; i < count; ++i)
@@ -663,6 +685,23 @@ class SceneFlattener {
                 coordinates ? Vec2f(static_cast<float>(coordinates->number(i, 0)),
                                     static_cast<float>(coordinates->number(i, 1)))
                             : Vec2f(0));
+    }
+
+    void add_tangents(const tinygltf::Primitive& primitive, std::size_t base, std::size_t count,
+                      const Imath::M44d& to_world) {
+        const auto tangents = attribute(primitive, "TANGENT", TINYGLTF_TYPE_VEC4);
+        if (!tangents) return;
+        if (tangents->count() != count)
+            file_.fail(fmt::format("{} positions and {} tangents", count, tangents->count()));
+        const TangentTransform turned(to_world);
+        mesh_.tangents.resize(base, Vec4f(0));
+        for (std::size_t i = 0; i < count; ++i) {
+            const double handedness = tangents->number(i, 3);
+            if (std::abs(handedness) != 1)
+                file_.fail(fmt::format("the tangent of vertex {} has w = {} (expected 1 or -1)", i,
+                                       handedness));
+            mesh_.tangents.push_back(turned(tangents->vector(i), handedness));
+        }
     }
 
     const InputFile& file_;

@@ -25,8 +25,11 @@ Format format_of(const std::string& name) {
                             name, ending));
 }
 
-bool finite(const Vec3f& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+template <class Vector>
+bool finite(const Vector& v) {
+    for (unsigned i = 0; i < Vector::dimensions(); ++i)
+        if (!std::isfinite(v[static_cast<int>(i)])) return false;
+    return true;
 }
 
 void check_finite(const detail::InputFile& file, const Mesh& mesh) {
@@ -34,9 +37,9 @@ void check_finite(const detail::InputFile& file, const Mesh& mesh) {
         const char* what = nullptr;
         if (!finite(mesh.positions[i])) what = "position";
         if (!finite(mesh.normals[i])) what = "normal";
-        if (!mesh.texture_coordinates.empty() && !(std::isfinite(mesh.texture_coordinates[i].x) &&
-                                                   std::isfinite(mesh.texture_coordinates[i].y)))
+        if (!mesh.texture_coordinates.empty() && !finite(mesh.texture_coordinates[i]))
             what = "texture coordinate";
+        if (!mesh.tangents.empty() && !finite(mesh.tangents[i])) what = "tangent";
         if (what != nullptr)
             file.fail(fmt::format("the {} of vertex {} is not a finite number", what, i));
     }
@@ -59,6 +62,7 @@ Mesh read_mesh(InputFile& file, std::uint64_t memory_limit) {
     tidy(mesh);
     if (mesh.indices.empty()) file.fail("it has no triangle that has an area");
     complete_normals(mesh);
+    complete_tangents(mesh);
     return mesh;
 }
 

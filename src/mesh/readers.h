@@ -1,5 +1,6 @@
 // One function per format of mesh files. Each checks what its parser does not, and returns a mesh
-// whose indices are in range and whose numbers are finite; normals that the file lacks are 0.
+// whose indices are in range and whose numbers are finite; normals and tangents that the
+// file lacks are 0.
 #pragma once
 
 #include <cstdint>

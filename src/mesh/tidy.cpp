@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "tangents.h"
+
 namespace mirrorball::detail {
 namespace {
 
 // Twice the area against the square of the longest edge. Where positions are rounded to float, a
 // ratio below this is three points on a line.
 constexpr double kLeastRatio = 1e-12;
-
-bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    const Vec3d ab = b - a, ac = c - a, bc = c - b;
-    const double longest2 = std::max({ab.length2(), ac.length2(), bc.length2()});
-    return ab.cross(ac).length() > kLeastRatio * longest2;
-}
 
 void drop_triangles_without_area(Mesh& mesh) {
     std::size_t kept = 0;
@@ -41,15 +37,23 @@ void drop_unused_vertices(Mesh& mesh) {
         mesh.normals[kept] = mesh.normals[i];
         if (!mesh.texture_coordinates.empty())
             mesh.texture_coordinates[kept] = mesh.texture_coordinates[i];
+        if (!mesh.tangents.empty()) mesh.tangents[kept] = mesh.tangents[i];
         moved_to[i] = kept++;
     }
     mesh.positions.resize(kept);
     mesh.normals.resize(kept);
     if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates.resize(kept);
+    if (!mesh.tangents.empty()) mesh.tangents.resize(kept);
     for (std::uint32_t& index : mesh.indices) index = moved_to[index];
 }
 
 }  // namespace
+
+bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const Vec3d ab = b - a, ac = c - a, bc = c - b;
+    const double longest2 = std::max({ab.length2(), ac.length2(), bc.length2()});
+    return ab.cross(ac).length() > kLeastRatio * longest2;
+}
 
 void tidy(Mesh& mesh) {
     drop_triangles_without_area(mesh);
@@ -66,6 +70,20 @@ void complete_normals(Mesh& mesh) {
         } else {
             normal = Vec3f(Vec3d(normal).normalized());
         }
+    }
+}
+
+void complete_tangents(Mesh& mesh) {
+    if (mesh.texture_coordinates.empty()) mesh.tangents.clear();
+    for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+        Vec4f& tangent = mesh.tangents[i];
+        const Vec3d along(tangent.x, tangent.y, tangent.z);
+        const Vec3d in_surface = unit_in_plane(along, Vec3d(mesh.normals[i]));
+        if (in_surface == Vec3d(0)) {
+            mesh.tangents.clear();
+            return;
+        }
+        tangent = tangent_of(in_surface, tangent.w);
     }
 }
 

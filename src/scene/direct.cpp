@@ -13,7 +13,11 @@
 #include <mirrorball/light.h>
 #include <mirrorball/lookup.h>
 
+#include <mirrorball/projections/sphere.h>
+
 #include "core/parallel.h"
+#include "scene/bump_lookup.h"
+#include "scene/picture_lookup.h"
 
 namespace mirrorball {
 namespace {
@@ -94,25 +98,6 @@ Axes frame_about(const Vec3d& n) {
     return {x, n.cross(x), n};
 }
 
-// Bilinear, repeated without end.
-Vec3d look_up_picture(const Image& picture, const Vec2f& place) {
-    const auto wrapped = [](double i, int size) {
-        const double rest = i - std::floor(i / size) * size;
-        return std::min(static_cast<int>(rest), size - 1);
-    };
-    const double x = static_cast<double>(place.x) * picture.width() - 0.5,
-                 y = static_cast<double>(place.y) * picture.height() - 0.5;
-    if (!std::isfinite(x) || !std::isfinite(y)) return Vec3d(picture.rgb(0, 0));
-    const double x0 = std::floor(x), y0 = std::floor(y);
-    const auto texel = [&](double i, double j) {
-        return Vec3d(picture.rgb(wrapped(i, picture.width()), wrapped(j, picture.height())));
-    };
-    const auto row = [&](double j) {
-        return texel(x0, j) + (texel(x0 + 1, j) - texel(x0, j)) * (x - x0);
-    };
-    return row(y0) + (row(y0 + 1) - row(y0)) * (y - y0);
-}
-
 // Along the ray, to the far side of the box; infinite if the ray misses it.
 double distance_to(const BoxProxy& box, const Vec3d& p, const Vec3d& d) {
     double near = 0, far = kInfinite;
@@ -179,38 +164,29 @@ class DirectShading::Impl {
     Impl(const Scene& scene, const SceneAssets& assets, const ReflectionMaps& maps)
         : scene_(scene),
           assets_(assets),
-          maps_(maps) {
-        for (const SceneObject& object : scene.objects) {
-            Surface& surface = surfaces_.emplace_back();
-            const Material& material = object.material;
-            if (material.glossy > 0)
-                surface.glossy_map = &maps.glossy[maps.index_of(material.lobe)];
-            surface.glossy_brdf = glossy_brdf(material);
-            if (material.coupling == Coupling::split_sum)
-                surface.dfg.emplace(roughness_of(material.lobe));
-            if (!material.base_color_map.empty())
-                surface.picture = &assets.pictures.at(material.base_color_map);
-        }
+          maps_(maps),
+          lights_(lights_now(scene)) {
+        for (const SceneObject& object : scene.objects) surfaces_.push_back(surface_of(object));
     }
 
     [[nodiscard]] Vec3d surface(std::size_t object, const SurfacePoint& point,
                                 const Vec3d& eye) const {
         const Material& material = scene_.objects[object].material;
         const Surface& surface = surfaces_[object];
-        const View view = view_of(material, point, eye);
-        const Weights weights = surface.dfg
-                                    ? split_sum_weights(material, *surface.dfg, view.fresnel_cosine)
-                                    : fresnel_weights(material, view.fresnel_cosine);
+        const View view = view_of(material, surface, point, eye);
+        const Weights weights = weights_of(material, surface, view.fresnel_cosine);
         Vec3d base_color = material.base_color;
         if (surface.picture != nullptr)
-            base_color *= look_up_picture(*surface.picture, point.texture_coordinates);
-
+            base_color *=
+                detail::look_up_picture(*surface.picture, view.texture_coordinates, Wrap::repeat);
+        const Vec3d mapped = weights.layer * layer_light(material, surface, point.position, view) +
+                             weights.base * diffuse_light(material, view) * base_color;
         const Vec3d from_environment =
-            weights.layer * layer_light(material, surface, point.position, view) +
-            weights.base * diffuse_light(material, view) * base_color +
-            glass_light(material, point.position, view) * base_color;
+            mapped * view.luminance +
+            glass_light(material, surface, point.position, view) * base_color;
         return from_environment * scene_.environment.intensity + base_color * material.emission +
-               light_of_lights(material, surface, base_color, point.position, view, weights);
+               light_of_lights(material, surface, base_color, point.position, view, weights) *
+                   view.luminance;
     }
 
     [[nodiscard]] Vec3d background(const Vec3d& eye, const Vec3d& direction) const {
@@ -226,6 +202,9 @@ class DirectShading::Impl {
         std::optional<Brdf> glossy_brdf;
         std::optional<DfgCurve> dfg;  // of those coupled by split_sum
         const Image* picture = nullptr;
+        const Image* floor_picture = nullptr;
+        std::optional<detail::BumpLookup> bump;
+        Vec3d centre{0};  // where light maps are made for
     };
 
     // Directions at a point, the normal on the eye's side.
@@ -233,18 +212,52 @@ class DirectShading::Impl {
         Vec3d n, v, r;
         Vec3d t;                // zero: nothing is seen through the surface
         double fresnel_cosine;  // at which F is taken
+        Imath::V2d texture_coordinates;
+        double above_horizon = 1;
+        std::optional<Imath::V2d> shift;  // on sphere maps: the bump's, of the classic form
+        double luminance = 1;
     };
 
-    static View view_of(const Material& material, const SurfacePoint& point, const Vec3d& eye) {
+    [[nodiscard]] Surface surface_of(const SceneObject& object) const {
+        Surface surface;
+        const Material& material = object.material;
+        if (material.glossy > 0) surface.glossy_map = &maps_.glossy[maps_.index_of(material.lobe)];
+        surface.glossy_brdf = glossy_brdf(material);
+        if (material.coupling == Coupling::split_sum)
+            surface.dfg.emplace(roughness_of(material.lobe));
+        if (!material.base_color_map.empty())
+            surface.picture = &assets_.pictures.at(material.base_color_map);
+        if (material.floor && !material.floor->color_map.empty())
+            surface.floor_picture = &assets_.pictures.at(material.floor->color_map);
+        if (!material.bump.is_smooth()) {
+            surface.bump.emplace(material.bump, assets_, scene_.time);
+            surface.centre =
+                object.transform.point(bounds(assets_.meshes.at(object.mesh)).centre());
+        }
+        return surface;
+    }
+
+    static Weights weights_of(const Material& material, const Surface& surface, double cosine) {
+        return surface.dfg ? split_sum_weights(material, *surface.dfg, cosine)
+                           : fresnel_weights(material, cosine);
+    }
+
+    static View view_of(const Material& material, const Surface& surface, const SurfacePoint& point,
+                        const Vec3d& eye) {
         View view;
         // an eye at the very point, or a point without a normal: the surface faces the eye
         const Vec3d fallback = point.normal == Vec3d(0) ? Vec3d(0, 0, 1) : point.normal;
         view.v = (eye == point.position ? fallback : eye - point.position).normalized();
-        view.n = point.normal == Vec3d(0) ? view.v : point.normal.normalized();
-        const bool behind = view.n.dot(view.v) < 0;
+        const Vec3d smooth = point.normal == Vec3d(0) ? view.v : point.normal.normalized();
+        const bool behind = smooth.dot(view.v) < 0;
+        view.n = smooth;
+        view.texture_coordinates = Imath::V2d(point.texture_coordinates);
+        if (surface.bump) add_bump(material.bump, *surface.bump, point, smooth, behind, view);
         if (behind) view.n = -view.n;
         const double cosine = std::clamp(view.n.dot(view.v), 0.0, 1.0);
         view.r = view.n * (2 * view.n.dot(view.v)) - view.v;
+        if (surface.bump && !view.shift && material.bump.horizon)
+            view.above_horizon = detail::above_horizon(view.r, behind ? -smooth : smooth);
         view.t = Vec3d(0);
         view.fresnel_cosine = cosine;
         if (material.transmission > 0) {
@@ -255,44 +268,123 @@ class DirectShading::Impl {
         return view;
     }
 
+    static void add_bump(const BumpMap& map, const detail::BumpLookup& bump,
+                         const SurfacePoint& point, const Vec3d& smooth, bool behind, View& view) {
+        Imath::V2d place = bump.place(view.texture_coordinates);
+        if (map.form == BumpForm::classic) {
+            view.shift = bump.shift(bump.slopes(place));
+            view.luminance = bump.luminance(place);
+            return;
+        }
+        const Vec3d in_frame(view.v.dot(point.tangent.normalized()),
+                             view.v.dot(point.bitangent.normalized()), view.v.dot(smooth));
+        if (!behind && map.relief > 0) {
+            place = bump.seen_in_relief(place, in_frame);
+            view.texture_coordinates = bump.texture_coordinates(place);
+        }
+        const Imath::V2d slopes = bump.slopes(place);
+        view.n = (smooth - point.tangent * slopes.x - point.bitangent * slopes.y).normalized();
+    }
+
     [[nodiscard]] Vec3d seen(const EnvironmentMap& map, const Vec3d& position,
-                             const Vec3d& direction) const {
-        return Vec3d(look_up(map, seen_from_capture(scene_.environment, position, direction)));
+                             const Vec3d& direction, const View& view) const {
+        const Vec3d seen = seen_from_capture(scene_.environment, position, direction);
+        return Vec3d(look_up(map, view.shift ? shifted(map, seen, *view.shift) : seen));
+    }
+
+    // The direction that a sphere map shows beside another; all beyond its rim is one.
+    static Vec3d shifted(const EnvironmentMap& map, const Vec3d& direction,
+                         const Imath::V2d& shift) {
+        return map.axes.to_world(SphereMap::direction(on_sphere_map(map.axes, direction, shift)));
+    }
+
+    static FacePoint<double> on_sphere_map(const Axes& axes, const Vec3d& direction,
+                                           const Imath::V2d& shift) {
+        FacePoint<double> place = SphereMap::project(axes.to_map(direction));
+        place.s += shift.x, place.t += shift.y;
+        const Imath::V2d from_centre(place.s - 0.5, place.t - 0.5);
+        const double beyond = 2 * from_centre.length();
+        if (beyond > 1) {
+            place.s = 0.5 + from_centre.x / beyond;
+            place.t = 0.5 + from_centre.y / beyond;
+        }
+        return place;
     }
 
     [[nodiscard]] Vec3d layer_light(const Material& material, const Surface& surface,
                                     const Vec3d& position, const View& view) const {
         Vec3d sum(0);
-        if (material.mirror > 0) sum += seen(maps_.mirror, position, view.r) * material.mirror;
+        if (material.mirror > 0)
+            sum += seen(maps_.mirror, position, view.r, view) * material.mirror;
         if (material.glossy > 0)
-            sum += seen(*surface.glossy_map, position, view.r) * material.glossy;
-        return sum;
+            sum += seen(*surface.glossy_map, position, view.r, view) * material.glossy;
+        return sum * view.above_horizon;
     }
 
     [[nodiscard]] Vec3d diffuse_light(const Material& material, const View& view) const {
         if (material.diffuse == 0) return Vec3d(0);
-        return Vec3d(look_up(maps_.diffuse, view.n)) * (material.diffuse / kPi);
+        const Vec3d n = view.shift ? shifted(maps_.diffuse, view.n, *view.shift) : view.n;
+        return Vec3d(look_up(maps_.diffuse, n)) * (material.diffuse / kPi);
     }
 
-    [[nodiscard]] Vec3d glass_light(const Material& material, const Vec3d& position,
-                                    const View& view) const {
+    [[nodiscard]] Vec3d glass_light(const Material& material, const Surface& surface,
+                                    const Vec3d& position, const View& view) const {
         if (view.t == Vec3d(0)) return Vec3d(0);
         const Vec3d passes = Vec3d(1) - material.fresnel(view.fresnel_cosine);
-        return seen(maps_.mirror, position, view.t) * passes * material.transmission;
+        const std::optional<Vec3d> floor = floor_light(material, surface, position, view.t);
+        const Vec3d light =
+            floor ? *floor
+                  : Vec3d(look_up(maps_.mirror,
+                                  seen_from_capture(scene_.environment, position, view.t)));
+        return light * passes * material.transmission;
     }
 
-    // Eq. 15.
+    // None where there is no floor in that direction.
+    [[nodiscard]] std::optional<Vec3d> floor_light(const Material& material, const Surface& surface,
+                                                   const Vec3d& position, const Vec3d& t) const {
+        if (!material.floor || t.y >= 0 || position.y <= material.floor->height)
+            return std::nullopt;
+        const Floor& floor = *material.floor;
+        const double length = (floor.height - position.y) / t.y;
+        const Vec3d there = position + t * length;
+        Vec3d color = floor.color;
+        if (surface.floor_picture != nullptr)
+            color *= detail::look_up_picture(*surface.floor_picture,
+                                             Imath::V2d(there.x, there.z) / floor.color_width,
+                                             Wrap::repeat);
+        const Vec3d passes(std::exp(-floor.absorption.x * length),
+                           std::exp(-floor.absorption.y * length),
+                           std::exp(-floor.absorption.z * length));
+        return color * Vec3d(look_up(maps_.diffuse, Vec3d(0, 1, 0))) * passes / kPi;
+    }
+
+    // Eq. 15; of bumps of the classic form, where their light map has been made.
     [[nodiscard]] Vec3d light_of_lights(const Material& material, const Surface& surface,
                                         const Vec3d& base_color, const Vec3d& position,
                                         const View& view, const Weights& weights) const {
-        if (scene_.lights.empty()) return Vec3d(0);
-        const Axes frame = frame_about(view.n);
-        const Vec3d wo = frame.to_map(view.v);
+        if (!view.shift)
+            return light_of_lights(material, surface, base_color, position, view.n, view.v,
+                                   weights);
+        const Axes& axes = maps_.mirror.axes;
+        const FacePoint<double> place = on_sphere_map(axes, view.r, *view.shift);
+        const double x = 2 * place.s - 1, y = 1 - 2 * place.t;
+        const double z = std::sqrt(std::max(0.0, 1 - x * x - y * y));
+        return light_of_lights(material, surface, base_color, surface.centre,
+                               axes.to_world({x, y, z}), axes.z, weights_of(material, surface, z));
+    }
+
+    [[nodiscard]] Vec3d light_of_lights(const Material& material, const Surface& surface,
+                                        const Vec3d& base_color, const Vec3d& position,
+                                        const Vec3d& n, const Vec3d& v,
+                                        const Weights& weights) const {
+        if (lights_.empty()) return Vec3d(0);
+        const Axes frame = frame_about(n);
+        const Vec3d wo = frame.to_map(v);
         const Vec3d base = weights.base * base_color * (material.diffuse / kPi);
         const bool microfacets = material.lobe.kind == Lobe::Kind::ggx;
         const Vec3d layer = (microfacets ? weights.compensation : weights.layer) * material.glossy;
         Vec3d sum(0);
-        for (const SceneLight& light : scene_.lights) {
+        for (const SceneLight& light : lights_) {
             const auto [wi, arriving] = arriving_from(light, position, frame);
             if (arriving == Vec3d(0)) continue;
             Vec3d f = base;
@@ -322,7 +414,8 @@ class DirectShading::Impl {
     const Scene& scene_;
     const SceneAssets& assets_;
     const ReflectionMaps& maps_;
-    std::vector<Surface> surfaces_;  // one per object
+    std::vector<SceneLight> lights_;  // where they are at the scene's time
+    std::vector<Surface> surfaces_;   // one per object
 };
 
 DirectShading::DirectShading(const Scene& scene, const SceneAssets& assets,
@@ -357,9 +450,13 @@ Image shade(const Scene& scene, const SceneAssets& assets, const ReflectionMaps&
                 radiance = shading.background(scene.camera.eye, ray);
             } else {
                 const float* place = surfaces.texture_coordinates.at(x, y);
-                const SurfacePoint point{Vec3d(surfaces.position.rgb(x, y)),
-                                         Vec3d(surfaces.normal.rgb(x, y)),
-                                         {place[0], place[1]}};
+                SurfacePoint point{Vec3d(surfaces.position.rgb(x, y)),
+                                   Vec3d(surfaces.normal.rgb(x, y)),
+                                   {place[0], place[1]}};
+                if (!surfaces.tangent.empty()) {
+                    point.tangent = Vec3d(surfaces.tangent.rgb(x, y));
+                    point.bitangent = Vec3d(surfaces.bitangent.rgb(x, y));
+                }
                 radiance =
                     shading.surface(static_cast<std::size_t>(object), point, scene.camera.eye);
             }

@@ -75,4 +75,19 @@ Method parse_method(std::string_view name) {
     throw Error(Errc::usage, fmt::format("\"{}\" is not a method; there are: {}", name, names));
 }
 
+bool can_show(Method method, const BumpMap& bump) {
+    if (bump.is_smooth()) return true;
+    if (bump.form == BumpForm::classic) return projection_of(method) == Projection::sphere;
+    switch (method) {
+        case Method::sphere_vertex:
+        case Method::cube_vertex:
+        case Method::cube_split:
+        case Method::dual_paraboloid_vertex:
+        case Method::dual_paraboloid_passes:
+            return false;
+        default:
+            return true;
+    }
+}
+
 }  // namespace mirrorball

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include <mirrorball/lookup.h>
 #include <mirrorball/prefilter.h>
 #include <mirrorball/resample.h>
 
@@ -16,6 +17,12 @@ constexpr double kTexelsPerWidth = 16;
 constexpr int kLeastFace = 16, kMostFace = 1024;
 // A cosine is wide, but it ends in a kink at the horizon, which blurs over a texel.
 constexpr int kDiffuseFace = 64;
+
+// The last level of rough maps, of alpha 1. With texels half as wide, lookups are off by a quarter
+// as much at the levels, and by as much between them, where most of the error is.
+constexpr int kRoughestFace = 8;
+// The first one: by four of its texels to one of the environment's.
+constexpr int kFinestFace = 512, kFinestOverEnvironment = 4;
 
 // Texels along a great circle, in edges of a cube's face, which has a quarter of them: the size of
 // a map over that of a cube map as fine.
@@ -32,6 +39,38 @@ int size_over_cube(Projection projection) {
 
 int power_of_two_from(double size) {
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(size))));
+}
+
+// The edge of a cube's face as fine as the map.
+double face_as_fine_as(const EnvironmentMap& map) {
+    const int texels = map.projection == Projection::equirect ? map.width() : map.height();
+    return static_cast<double>(texels) / size_over_cube(map.projection);
+}
+
+int finest_rough_face(const EnvironmentMap& environment) {
+    const int wanted = kFinestOverEnvironment * mirror_map_size(environment, Projection::cube);
+    return std::clamp(wanted, 2 * kRoughestFace, kFinestFace);
+}
+
+// One for each level, the finest first.
+std::vector<PrefilterTarget> rough_targets(const EnvironmentMap& environment, Projection projection,
+                                           const Axes& axes) {
+    std::vector<PrefilterTarget> targets;
+    for (int face = finest_rough_face(environment); face >= kRoughestFace; face /= 2) {
+        const double alpha = static_cast<double>(kRoughestFace) / face;
+        targets.push_back({{Lobe::Kind::ggx, std::sqrt(alpha)},
+                           projection,
+                           face * size_over_cube(projection),
+                           axes});
+    }
+    return targets;
+}
+
+// Takes the maps' only levels.
+EnvironmentMap levels_of(std::span<EnvironmentMap> maps) {
+    EnvironmentMap chain{maps.front().projection, maps.front().axes, {}};
+    for (EnvironmentMap& map : maps) chain.levels.push_back(std::move(map.levels[0]));
+    return chain;
 }
 
 void add_unless_there(std::vector<Lobe>& lobes, const Lobe& lobe) {
@@ -55,15 +94,13 @@ int glossy_map_size(const Lobe& lobe, Projection projection) {
 }
 
 int mirror_map_size(const EnvironmentMap& environment, Projection projection) {
-    const int texels =
-        environment.projection == Projection::equirect ? environment.width() : environment.height();
-    const double face = static_cast<double>(texels) / size_over_cube(environment.projection);
-    return power_of_two_from(std::max(1.0, face)) * size_over_cube(projection);
+    return power_of_two_from(std::max(1.0, face_as_fine_as(environment))) *
+           size_over_cube(projection);
 }
 
 ReflectionMaps make_reflection_maps(const EnvironmentMap& environment, std::span<const Lobe> lobes,
                                     Projection projection, int size, const Axes& axes,
-                                    const Progress& progress) {
+                                    const ReflectionMapOptions& options) {
     ReflectionMaps maps;
     maps.mirror = resample(environment, projection, size, axes);
     append_mip_levels(maps.mirror);
@@ -79,11 +116,44 @@ ReflectionMaps make_reflection_maps(const EnvironmentMap& environment, std::span
     }
     targets.push_back(
         {{Lobe::Kind::diffuse}, projection, kDiffuseFace * size_over_cube(projection), axes});
-    Prefiltered blurred = PrefilterPlan(shape_of(environment), targets)(environment, progress);
-    maps.diffuse = std::move(blurred.maps.back());
-    blurred.maps.pop_back();
-    maps.glossy = std::move(blurred.maps);
+    if (options.rough) {
+        const std::vector<PrefilterTarget> levels = rough_targets(environment, projection, axes);
+        targets.insert(targets.end(), levels.begin(), levels.end());
+    }
+    std::vector<EnvironmentMap> blurred = prefilter(environment, targets, options.progress);
+    const auto diffuse = blurred.begin() + static_cast<std::ptrdiff_t>(maps.lobes.size());
+    if (options.rough) maps.rough = levels_of({diffuse + 1, blurred.end()});
+    maps.diffuse = std::move(*diffuse);
+    blurred.erase(diffuse, blurred.end());
+    maps.glossy = std::move(blurred);
     return maps;
+}
+
+double mirror_alpha(double face_size) {
+    // Half of GGX's light lies within 2 alpha. This is 0.3 texels of 2 / face_size: what bilinear
+    // lookup and the mean over a texel do to a small light, as measured at the built-in suns.
+    return 0.6 / face_size;
+}
+
+RoughPlace rough_place(double alpha, int level_count, double mirror_alpha) {
+    const double finest = std::exp2(1 - level_count);
+    if (alpha < finest) {
+        const double sharp = std::min(mirror_alpha, finest / 2);  // the mirror up to there
+        return {alpha > sharp ? (1 - sharp / alpha) / (1 - sharp / finest) : 0, 0};
+    }
+    const double finer = std::exp2(std::floor(std::log2(alpha / finest))) * finest;
+    const double lod = std::log2(finer / finest) + 2 * (1 - finer / alpha);
+    return {1, std::min(lod, level_count - 1.0)};
+}
+
+Vec3f look_up_rough(const ReflectionMaps& maps, const Vec3d& direction, double alpha) {
+    const double sharp = mirror_alpha(face_as_fine_as(maps.mirror));
+    const RoughPlace place = rough_place(alpha, maps.rough.level_count(), sharp);
+    const auto share = static_cast<float>(place.share);
+    Vec3f sum(0);
+    if (share > 0) sum += look_up_at_lod(maps.rough, direction, place.lod) * share;
+    if (share < 1) sum += look_up(maps.mirror, direction) * (1 - share);
+    return sum;
 }
 
 std::vector<Lobe> lobes_of(const Scene& scene) {

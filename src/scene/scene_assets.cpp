@@ -11,6 +11,8 @@
 
 #include <mirrorball/error.h>
 
+#include "scene/bump_texels.h"
+
 namespace mirrorball {
 namespace {
 
@@ -20,12 +22,15 @@ class Budget {
     explicit Budget(std::uint64_t bytes) : left_(bytes) {}
 
     [[nodiscard]] std::uint64_t left() const { return left_; }
-    void spend(std::uint64_t bytes, std::string_view name) {
+    void check(std::uint64_t bytes, std::string_view name) const {
         if (bytes > left_) {
             throw Error(Errc::cannot_read,
                         fmt::format("{}: needs {} bytes; of the memory limit {} are left", name,
                                     bytes, left_));
         }
+    }
+    void spend(std::uint64_t bytes, std::string_view name) {
+        check(bytes, name);
         if (left_ != kUnlimitedMemory) left_ -= bytes;
     }
 
@@ -40,11 +45,15 @@ std::uint64_t bytes_of(const std::vector<T>& values) {
 
 std::uint64_t bytes_of(const Mesh& mesh) {
     return bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(mesh.texture_coordinates) +
-           bytes_of(mesh.indices);
+           bytes_of(mesh.tangents) + bytes_of(mesh.indices);
 }
 
 std::uint64_t bytes_of(const Image& image) {
     return image.values().size_bytes();
+}
+
+std::uint64_t bytes_of(const BumpTexels& texels) {
+    return bytes_of(texels.slopes.slopes) + bytes_of(texels.heights);
 }
 
 std::uint64_t bytes_of(const EnvironmentMap& map) {
@@ -96,6 +105,35 @@ Image load_picture(const std::string& name, const std::filesystem::path& folder,
     return image.channels() == 3 ? image : with_three_channels(image);
 }
 
+// Slopes, heights and what they are made of.
+std::uint64_t bytes_to_make(const BumpMap& bump) {
+    constexpr std::uint64_t kBytesPerTexel = 32;
+    return kBytesPerTexel * static_cast<std::uint64_t>(bump.size) *
+           static_cast<std::uint64_t>(bump.size);
+}
+
+void load_bump(const BumpMap& bump, const std::filesystem::path& folder, SceneAssets& assets,
+               Budget& budget) {
+    if (bump.is_smooth() || assets.bumps.count(bump_key(bump)) != 0) return;
+    const bool is_source = detail::is_bump_source(bump);
+    if (is_source) budget.check(bytes_to_make(bump), bump.source);
+    if (moves(bump)) return;
+    BumpTexels texels = is_source ? detail::make_bump_texels(bump, 0)
+                                  : detail::read_bump_texels(bump, folder, budget.left());
+    budget.spend(bytes_of(texels), bump.source);
+    assets.bumps[bump_key(bump)] = std::make_shared<const BumpTexels>(std::move(texels));
+}
+
+// Bumps need to know which way a surface's texture runs.
+void add_tangents(Mesh& mesh, const std::string& name) {
+    if (!mesh.tangents.empty()) return;
+    if (mesh.texture_coordinates.empty()) {
+        throw Error(Errc::cannot_read,
+                    fmt::format("a bump map needs texture coordinates, and {} has none", name));
+    }
+    mesh = with_tangents(mesh);
+}
+
 // A list of files, or a pattern, or one: each of them relative to the folder.
 std::string environment_source(const std::string& source, const std::filesystem::path& folder) {
     if (source.rfind("builtin:", 0) == 0) return source;
@@ -128,6 +166,12 @@ std::string title(const Scene& scene, std::size_t i) {
 // What the scene names and the assets have not got, within the budget.
 void load_within(Budget& budget, SceneAssets& assets, const Scene& scene,
                  const std::filesystem::path& folder, const AssetOptions& options) {
+    const auto add_picture = [&](const std::string& name) {
+        if (name.empty() || assets.pictures.count(name) != 0) return;
+        Image picture = load_picture(name, folder, budget.left());
+        budget.spend(bytes_of(picture), name);
+        assets.pictures[name] = std::move(picture);
+    };
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];
         loaded_for(title(scene, i), [&] {
@@ -136,17 +180,32 @@ void load_within(Budget& budget, SceneAssets& assets, const Scene& scene,
                 budget.spend(bytes_of(mesh), object.mesh);
                 assets.meshes[object.mesh] = std::move(mesh);
             }
-            const std::string& map = object.material.base_color_map;
-            if (!map.empty() && assets.pictures.count(map) == 0) {
-                Image picture = load_picture(map, folder, budget.left());
-                budget.spend(bytes_of(picture), map);
-                assets.pictures[map] = std::move(picture);
-            }
+            const Material& material = object.material;
+            add_picture(material.base_color_map);
+            if (material.floor) add_picture(material.floor->color_map);
+            load_bump(material.bump, folder, assets, budget);
+            if (!material.bump.is_smooth()) add_tangents(assets.meshes[object.mesh], object.mesh);
         });
     }
 }
 
 }  // namespace
+
+bool is_loaded(const Scene& scene, const SceneAssets& assets) {
+    const auto has_picture = [&](const std::string& name) {
+        return name.empty() || assets.pictures.count(name) != 0;
+    };
+    const auto has_bump = [&](const SceneObject& object) {
+        const BumpMap& bump = object.material.bump;
+        return bump.is_smooth() || ((moves(bump) || assets.bumps.count(bump_key(bump)) != 0) &&
+                                    !assets.meshes.at(object.mesh).tangents.empty());
+    };
+    return std::all_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
+        const Material& material = object.material;
+        return assets.meshes.count(object.mesh) != 0 && has_picture(material.base_color_map) &&
+               (!material.floor || has_picture(material.floor->color_map)) && has_bump(object);
+    });
+}
 
 void load_missing(SceneAssets& assets, const Scene& scene, const std::filesystem::path& folder,
                   const AssetOptions& options) {

@@ -13,7 +13,42 @@ inline constexpr double kBrightestLight = 1e12;
 
 // The visitor's members: `number`, `whole`, `flag`, `text`, `vector` (three numbers), `scale` (the
 // same or one number for all, none 0), `colour` (three numbers or one), `degrees`, `spelled` (text
-// with a parser and a printer), `part` (another such), `optional_part`.
+// with a parser and a printer), `pair` (two numbers), `matrix` (two rows of two), and members that
+// are objects themselves: `bump`, `floor`, `proxy`.
+
+template <class V, class B>
+void visit_bump(V& v, B& b) {
+    v.text("source", b.source);
+    v.spelled(
+        "kind", b.kind, [](std::string_view kind) { return std::optional(parse_bump_kind(kind)); },
+        [](const std::optional<BumpKind>& kind) { return kind ? name(*kind) : ""; });
+    v.spelled("green", b.green, parse_green, [](Green g) { return name(g); });
+    v.spelled("wrap", b.wrap, parse_wrap, [](Wrap w) { return name(w); });
+    v.number("height_scale", b.height_scale, -1e6, 1e6);
+    v.number("width", b.width, 0, 1e6);
+    v.whole("size", b.size, 1, 4096);
+    v.pair("repeat", b.repeat, -1e4, 1e4);
+    v.pair("offset", b.offset, -1e4, 1e4);
+    v.pair("drift", b.drift, -1e4, 1e4);
+    v.number("strength", b.strength, -100, 100);
+    v.spelled("form", b.form, parse_bump_form, [](BumpForm f) { return name(f); });
+    v.spelled("filter", b.filter, parse_bump_filter, [](BumpFilter f) { return name(f); });
+    v.number("relief", b.relief, 0, 1);
+    v.flag("horizon", b.horizon);
+    v.matrix("matrix", b.matrix, -100, 100);
+    v.degrees("matrix_turn_degrees", b.matrix_turn, -36000, 36000);
+    v.number("luminance_scale", b.luminance_scale, -100, 100);
+    v.number("luminance_offset", b.luminance_offset, -100, 100);
+}
+
+template <class V, class F>
+void visit_floor(V& v, F& floor) {
+    v.number("height", floor.height, -kFarthest, kFarthest);
+    v.colour("color", floor.color, 0, 1);
+    v.text("color_map", floor.color_map);
+    v.number("color_width", floor.color_width, 1e-6, 1e6);
+    v.colour("absorption", floor.absorption, 0, 1000);
+}
 
 template <class V, class M>
 void visit_material(V& v, M& m) {
@@ -28,6 +63,8 @@ void visit_material(V& v, M& m) {
     v.spelled("fresnel", m.fresnel, parse_fresnel, [](const Fresnel& f) { return to_string(f); });
     v.spelled("coupling", m.coupling, parse_coupling, [](Coupling c) { return name(c); });
     v.number("index", m.index, 0.01, 100);
+    v.floor("floor", m.floor);
+    v.bump("bump", m.bump);
 }
 
 template <class V, class T>
@@ -68,12 +105,14 @@ template <class V, class L>
 void visit_point_light(V& v, L& light) {
     v.vector("position", light.position);
     v.colour("intensity", light.intensity, 0, kBrightestLight);
+    v.degrees("turn_degrees", light.turn, -36000, 36000);
 }
 
 template <class V, class L>
 void visit_directional_light(V& v, L& light) {
     v.vector("direction", light.direction);
     v.colour("normal_irradiance", light.normal_irradiance, 0, kBrightestLight);
+    v.degrees("turn_degrees", light.turn, -36000, 36000);
 }
 
 template <class V, class E>
@@ -101,6 +140,7 @@ void visit_picture(V& v, S& scene) {
     v.whole("map_size", scene.map_size, 0, 16384);
     v.number("exposure", scene.exposure, 0, 1e12);
     v.spelled("tone_map", scene.tone_map, parse_tone_map, [](ToneMap t) { return name(t); });
+    v.number("time", scene.time, -1e6, 1e6);
 }
 
 }  // namespace mirrorball::detail

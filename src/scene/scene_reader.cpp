@@ -78,6 +78,16 @@ class Value {
         return Vec3d(number(least, most));
     }
 
+    [[nodiscard]] Imath::V2d one_or_two(double least, double most) const {
+        if (is(JsonNode::Kind::number)) return Imath::V2d(number(least, most));
+        expect_pair("a number or an array of two");
+        return {item(0).number(least, most), item(1).number(least, most)};
+    }
+    void expect_pair(std::string_view what) const {
+        if (!is(JsonNode::Kind::array) || node_->items.size() != 2)
+            fail(fmt::format("{}; expected {}", quoted(*node_), what));
+    }
+
     [[nodiscard]] std::size_t size() const { return node_->items.size(); }
     [[nodiscard]] Value item(std::size_t i) const {
         return {*document_, node_->items[i], fmt::format("{}[{}]", path_, i)};
@@ -167,6 +177,38 @@ class Reader {
             if (error.code() != Errc::usage) throw;
             v->fail(error.what());
         }
+    }
+    // One number for both, or two.
+    void pair(const char* key, Imath::V2d& result, double least, double most) {
+        if (const auto v = find(key)) result = v->one_or_two(least, most);
+    }
+    void matrix(const char* key, Imath::M22d& result, double least, double most) {
+        const auto v = find(key);
+        if (!v) return;
+        constexpr std::string_view kMatrix = "two rows of two numbers, [[a, b], [c, d]]";
+        v->expect_pair(kMatrix);
+        for (int i = 0; i < 2; ++i) {
+            const Value row = v->item(static_cast<std::size_t>(i));
+            row.expect_pair(kMatrix);
+            for (int j = 0; j < 2; ++j)
+                result[i][j] = row.item(static_cast<std::size_t>(j)).number(least, most);
+        }
+    }
+    // Over what is there already, of a material that this one is like.
+    void bump(const char* key, BumpMap& result) {
+        const auto v = find(key);
+        if (!v) return;
+        Reader reader(*v);
+        visit_bump(reader, result);
+        reader.finish();
+    }
+    void floor(const char* key, std::optional<Floor>& result) {
+        const auto v = find(key);
+        if (!v) return;
+        Reader reader(*v);
+        if (!result) result.emplace();
+        visit_floor(reader, *result);
+        reader.finish();
     }
     void proxy(const char* key, Proxy& result);
 

@@ -57,6 +57,14 @@ class Members {
     void spelled(const char* key, const T& value, Parse&&, Print&& print) {
         add(key, print(value));
     }
+    void pair(const char* key, const Imath::V2d& value, double, double) {
+        add(key, value.x == value.y ? Json(value.x) : Json::array({value.x, value.y}));
+    }
+    void matrix(const char* key, const Imath::M22d& m, double, double) {
+        add(key, Json::array({Json::array({m[0][0], m[0][1]}), Json::array({m[1][0], m[1][1]})}));
+    }
+    void bump(const char* key, const BumpMap& value);
+    void floor(const char* key, const std::optional<Floor>& value);
     void proxy(const char* key, const Proxy& value);
 
     // Those that differ from what an untouched part has.
@@ -95,6 +103,14 @@ void Members::proxy(const char* key, const Proxy& value) {
     if (const auto* sphere = std::get_if<SphereProxy>(&value))
         json["sphere"] = written(*sphere, MIRRORBALL_VISIT(visit_sphere));
     add(key, json);
+}
+
+void Members::bump(const char* key, const BumpMap& value) {
+    add(key, written(value, MIRRORBALL_VISIT(visit_bump)));
+}
+
+void Members::floor(const char* key, const std::optional<Floor>& value) {
+    add(key, value ? written(*value, MIRRORBALL_VISIT(visit_floor)) : Json());
 }
 
 void add_unless_empty(Json& object, const char* key, Json value) {

@@ -21,7 +21,7 @@ std::uint8_t code(float linear) {
 }
 
 ScreenPicture on_screen(const Image& light, double exposure, ToneMap tone_map) {
-    ScreenPicture picture{light.width(), light.height(), {}};
+    ScreenPicture picture{light.width(), light.height(), {}, 0};
     picture.rgba.reserve(static_cast<std::size_t>(light.texel_count()) * 4);
     for (int y = 0; y < light.height(); ++y) {
         for (int x = 0; x < light.width(); ++x) {
@@ -72,6 +72,7 @@ const ScreenPicture& ShownMaps::picture(MapContent content, Projection projectio
     const double exposure = content == MapContent::diffuse ? look.exposure / kPi : look.exposure;
     kept = {look,
             on_screen(map_picture(turned, projection, look.axes, height), exposure, look.tone_map)};
+    kept.picture.version = ++last_version_;
     return kept.picture;
 }
 

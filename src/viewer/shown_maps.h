@@ -38,6 +38,7 @@ class ShownMaps {
     std::optional<EnvironmentMap> diffuse_;
     std::optional<std::pair<Lobe, EnvironmentMap>> glossy_;
     std::map<std::tuple<MapContent, Projection, int>, Kept> kept_;
+    std::uint64_t last_version_ = 0;
 };
 
 }  // namespace mirrorball

@@ -51,6 +51,7 @@ void SmoothPicture::add(Renderer& renderer, const Scene& scene, int sample_count
     program.use();
     sample_.texture().bind(0);
     program.set("u_first", 0);
+    program.set("u_origin", Imath::V2f(0, 0));
     glBindVertexArray(nothing_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_BLEND);

@@ -116,7 +116,7 @@ class Viewer::Impl {
     void set(const Scene& scene);
     void open(const Scene& scene, const fs::path& folder);
     void show_environment(Scene scene, LoadedMap map);
-    void draw(int width, int height);
+    void draw(int width, int height, int left, int bottom);
 
     [[nodiscard]] double usual_exposure() const { return usual_exposure_; }
     [[nodiscard]] double aspect() const {
@@ -153,7 +153,7 @@ class Viewer::Impl {
     void take_environment(const LoadedMap& loaded);
     [[nodiscard]] bool has_changed() const;
     void draw_side(Side& side, Method method, bool again);
-    void show();
+    void show(int left, int bottom);
 
     Axes environment_axes_;  // of the environment before it is turned
     double usual_exposure_ = 1;
@@ -188,14 +188,8 @@ void Viewer::Impl::set(const Scene& scene) {
         return;
     }
     const Axes axes = turned(environment_axes_, scene.environment);
-    const bool is_all_there =
-        axes == assets_->environment.axes &&
-        std::all_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
-            const std::string& map = object.material.base_color_map;
-            return assets_->meshes.count(object.mesh) > 0 &&
-                   (map.empty() || assets_->pictures.count(map) > 0);
-        });
-    if (is_all_there) return adopt(scene, assets_);
+    if (axes == assets_->environment.axes && is_loaded(scene, *assets_))
+        return adopt(scene, assets_);
     SceneAssets assets = *assets_;
     load_missing(assets, scene, folder_, asset_options());
     assets.environment.axes = axes;
@@ -204,7 +198,9 @@ void Viewer::Impl::set(const Scene& scene) {
 
 void Viewer::Impl::show_environment(Scene scene, LoadedMap map) {
     SceneAssets assets;
-    if (assets_) assets.meshes = assets_->meshes, assets.pictures = assets_->pictures;
+    assets.meshes = assets_->meshes;
+    assets.pictures = assets_->pictures;
+    assets.bumps = assets_->bumps;
     load_missing(assets, scene, folder_, asset_options());
     take_environment(map);
     assets.environment = std::move(map.map);
@@ -238,15 +234,16 @@ void Viewer::Impl::draw_side(Side& side, Method method, bool again) {
     side.picture->add(*side.renderer, scene, options_.sample_count, programs_);
 }
 
-void Viewer::Impl::show() {
+void Viewer::Impl::show(int left, int bottom) {
     using namespace gl;
     static constexpr const char* kShow[] = {"SHOW ONE", "SHOW WIPE", "SHOW DIFFERENCE"};
-    glViewport(0, 0, width_, height_);
+    glViewport(left, bottom, width_, height_);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     const Program& program =
         programs_.get("full.vert", "show.frag", {kShow[static_cast<int>(comparison_.showing)]});
     program.use();
+    program.set("u_origin", Imath::V2f(static_cast<float>(left), static_cast<float>(bottom)));
     sides_[0].picture->texture().bind(0);
     program.set("u_first", 0);
     if (comparison_.showing != Showing::one) {
@@ -260,7 +257,7 @@ void Viewer::Impl::show() {
     check("showing the picture");
 }
 
-void Viewer::Impl::draw(int width, int height) {
+void Viewer::Impl::draw(int width, int height, int left, int bottom) {
     if (width != width_ || height != height_) {
         width_ = width, height_ = height;
         for (Side& side : sides_) side.picture.reset();
@@ -285,7 +282,7 @@ void Viewer::Impl::draw(int width, int height) {
     drawn_ = {scene_, comparison_.other, assets_};
     smooth_ = sides_[0].picture->is_smooth(options_.sample_count) &&
               (!two || sides_[1].picture->is_smooth(options_.sample_count));
-    show();
+    show(left, bottom);
 }
 
 Viewer::Viewer() : Viewer(usual_scene(), {}, {}) {
@@ -475,8 +472,8 @@ void Viewer::frame_all(double aspect) {
                            shown.camera.field_of_view);
 }
 
-void Viewer::draw(int width, int height) {
-    impl_->draw(width, height);
+void Viewer::draw(int width, int height, int left, int bottom) {
+    impl_->draw(width, height, left, bottom);
 }
 
 bool Viewer::is_smooth() const {

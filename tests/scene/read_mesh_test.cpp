@@ -423,6 +423,138 @@ TEST_F(ReadMesh, GltfOfSeveralPrimitivesIsOneMesh) {
     EXPECT_NEAR(area(mesh), 2, 1e-6);
 }
 
+// The square with normals and tangents; views and accessors 3 and 4.
+Gltf with_tangent_attribute(const std::vector<float>& tangents) {
+    Gltf gltf;
+    gltf.binary += bytes_of<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}) + bytes_of(tangents);
+    gltf.views += R"(, {"buffer": 0, "byteOffset": 92, "byteLength": 48})"
+                  R"(, {"buffer": 0, "byteOffset": 140, "byteLength": 64})";
+    gltf.more_accessors =
+        R"(, {"bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC3"})"
+        R"(, {"bufferView": 4, "componentType": 5126, "count": 4, "type": "VEC4"})";
+    gltf.attributes += R"(, "NORMAL": 3, "TANGENT": 4)";
+    return gltf;
+}
+std::vector<float> four_times(const Vec4f& tangent) {
+    std::vector<float> result;
+    for (int i = 0; i < 16; ++i) result.push_back(tangent[i % 4]);
+    return result;
+}
+
+void expect_tangents(const std::vector<Vec4f>& tangents, const Vec4f& expected) {
+    ASSERT_EQ(tangents.size(), 4u);
+    for (const Vec4f& tangent : tangents) EXPECT_NEAR((tangent - expected).length(), 0, 1e-6);
+}
+
+TEST_F(ReadMesh, GltfTangentsAreTakenOver) {
+    // As long as they like, and leaning out of the surface.
+    const Gltf gltf = with_tangent_attribute(four_times({1.5f, 2, 7, -1}));
+    const Mesh mesh = read("a.gltf", gltf.embedded());
+    expect_square(mesh);
+    expect_tangents(mesh.tangents, {0.6f, 0.8f, 0, -1});
+    EXPECT_EQ(with_tangents(mesh).tangents, mesh.tangents);
+    EXPECT_TRUE(read("b.gltf", Gltf().embedded()).tangents.empty());
+    expect_tangents(with_tangents(read("b.gltf", Gltf().embedded())).tangents, {1, 0, 0, 1});
+}
+
+TEST_F(ReadMesh, GltfTangentsStayWithTheirVertices) {
+    Gltf gltf = with_tangent_attribute({1, 0, 0, 1, 0, 1, 0, 1, -1, 0, 0, 1, 0, -1, 0, 1});
+    gltf.binary.replace(80, 12, bytes_of<std::uint16_t>({0, 2, 3, 0, 2, 3}));  // 1 is unused
+    EXPECT_EQ(read("a.gltf", gltf.embedded()).tangents,
+              (std::vector<Vec4f>{{1, 0, 0, 1}, {-1, 0, 0, 1}, {0, -1, 0, 1}}));
+}
+
+// What a file says of its tangents, and what is made where it does not, is one in every node.
+TEST_F(ReadMesh, GltfTangentsGoWithTheirNodes) {
+    for (const char* transform :
+         {R"("translation": [3, 0, 0])", R"("scale": [2, 1, 5])", R"("scale": [-2, 1, 1])",
+          R"("scale": [1, -3, 1])", R"("scale": [1, 1, -1])", R"("scale": [-1, -1, -1])",
+          R"("rotation": [0.5, 0.5, 0.5, 0.5])",
+          R"("matrix": [1,0,2,0, 0,1,1,0, -1,3,1,0, 0,0,0,1])",
+          R"("matrix": [1,0,2,0, 0,1,1,0, 3,2,1,0, 0,0,0,1])"}) {
+        SCOPED_TRACE(transform);
+        Gltf gltf = with_tangent_attribute(four_times({1, 0, 0, 1}));
+        gltf.nodes = fmt::format(R"({{"mesh": 0, {}}})", transform);
+        const Mesh given = read("a.gltf", gltf.embedded());
+        gltf.attributes.resize(gltf.attributes.find(R"(, "TANGENT")"));
+        const Mesh made = with_tangents(read("a.gltf", gltf.embedded()));
+        ASSERT_EQ(made.positions.size(), 4u);
+        ASSERT_EQ(given.tangents.size(), 4u);
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_NEAR((given.tangents[i] - made.tangents[i]).length(), 0, 1e-6);
+    }
+}
+
+// Quantised: bytes that are normalised.
+TEST_F(ReadMesh, GltfTangentsOfBytes) {
+    Gltf gltf = with_tangent_attribute(std::vector<float>(4));
+    gltf.binary.resize(140);
+    for (int i = 0; i < 4; ++i) gltf.binary += std::string("\x7f\0\0\x81", 4);
+    gltf.views.replace(gltf.views.rfind("64"), 2, "16");
+    gltf.more_accessors.replace(gltf.more_accessors.rfind("5126"), 4, "5120, \"normalized\": true");
+    expect_tangents(read("a.gltf", gltf.embedded()).tangents, {1, 0, 0, -1});
+}
+
+TEST_F(ReadMesh, GltfTangentsThatAreIncompleteAreLeftOut) {
+    const std::vector<float> good = four_times({0, 1, 0, 1});
+    const auto tangents = [&](const Gltf& gltf) {
+        const Mesh mesh = read("a.gltf", gltf.embedded());
+        EXPECT_EQ(mesh.positions.size() % 4, 0u);
+        return mesh.tangents.size();
+    };
+    EXPECT_EQ(tangents(with_tangent_attribute(good)), 4u);
+    std::vector<float> zero = good;
+    zero[5] = 0;
+    EXPECT_EQ(tangents(with_tangent_attribute(zero)), 0u);
+    std::vector<float> along_normal = good;
+    along_normal[5] = 0, along_normal[6] = 1;
+    EXPECT_EQ(tangents(with_tangent_attribute(along_normal)), 0u);
+
+    Gltf gltf = with_tangent_attribute(good);
+    gltf.attributes = R"("POSITION": 0, "TEXCOORD_0": 1, "TANGENT": 4)";  // normals are missing
+    EXPECT_EQ(tangents(gltf), 0u);
+    gltf.attributes = R"("POSITION": 0, "NORMAL": 3, "TANGENT": 4)";  // of no texture
+    EXPECT_EQ(tangents(gltf), 0u);
+
+    // Of two primitives one has them, the first or the second.
+    const std::string all = with_tangent_attribute(good).attributes,
+                      some = R"("POSITION": 0, "TEXCOORD_0": 1, "NORMAL": 3)";
+    for (const auto& [first, second] : {std::pair(all, some), std::pair(some, all)}) {
+        gltf.attributes = first;
+        gltf.primitive =
+            fmt::format(R"("indices": 2}}, {{"attributes": {{{}}}, "indices": 2)", second);
+        EXPECT_EQ(tangents(gltf), 0u);
+    }
+    gltf.attributes = all;
+    EXPECT_EQ(tangents(gltf), 8u);
+}
+
+TEST_F(ReadMesh, BadGltfTangentsAreRefusedInWords) {
+    const auto refused = [&](std::size_t number, float value, const char* words) {
+        std::vector<float> tangents = four_times({1, 0, 0, 1});
+        tangents[number] = value;
+        expect_refused("a.gltf", with_tangent_attribute(tangents).embedded(), words);
+    };
+    refused(7, 0, "tangent of vertex 1 has w = 0 (expected 1 or -1)");
+    refused(3, 0.5f, "tangent of vertex 0 has w = 0.5");
+    refused(3, std::nanf(""), "tangent of vertex 0");
+    refused(4, std::nanf(""), "the tangent of vertex 1 is not a finite number");
+    refused(4, INFINITY, "the tangent of vertex 1 is not a finite number");
+
+    Gltf gltf = with_tangent_attribute(four_times({1, 0, 0, 1}));
+    const std::string accessors = gltf.more_accessors;
+    gltf.more_accessors.replace(accessors.rfind("VEC4"), 4, "VEC3");
+    expect_refused("a.gltf", gltf.embedded(), "(TANGENT): has 3 components (expected 4)");
+    gltf.more_accessors = accessors;
+    gltf.more_accessors.replace(accessors.rfind("4, \"type"), 1, "3");
+    expect_refused("a.gltf", gltf.embedded(), "4 positions and 3 tangents");
+    gltf.more_accessors.replace(accessors.rfind("4, \"type"), 1, "5");
+    expect_refused("a.gltf", gltf.embedded(), "reach over the end of a view");
+    gltf.more_accessors = accessors;
+    gltf.attributes.replace(gltf.attributes.rfind("4"), 1, "9");
+    expect_refused("a.gltf", gltf.embedded(), "accessor 9 (TANGENT)");
+}
+
 TEST_F(ReadMesh, GltfPicturesAndUnknownThingsAreNotOpened) {
     Gltf gltf;
     gltf.more = R"("images": [{"uri": "missing.png"}], "textures": [{"source": 99}],
@@ -523,6 +655,7 @@ TEST(MeshReaders, MutatedFilesAreReadOrRefused) {
         {"a.obj", kTriangle + "v 0.5 0.2 1e1\nvt 0.5 1\nvn 0 0 1\ng x\nf 1/1/1 2/1/1 3/-1/-1\n"
                               "f -4 4 2 3\nusemtl a\nf 2 3//1 \\\n 4\n"},
         {"a.gltf", Gltf().embedded()},
+        {"a.gltf", with_tangent_attribute(four_times({1, 0, 0, 1})).container()},
         {"a.glb", Gltf().container()}};
     int read_count = 0, refused_count = 0;
     const auto attempt = [&](const char* name, const std::string& content) {
@@ -532,6 +665,10 @@ TEST(MeshReaders, MutatedFilesAreReadOrRefused) {
             ++read_count;
             for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.positions.size());
             for (const Vec3f& n : mesh.normals) ASSERT_NEAR(n.length(), 1, 1e-5);
+            if (mesh.texture_coordinates.empty()) return;
+            const Mesh framed = with_tangents(mesh);
+            ASSERT_EQ(framed.tangents.size(), framed.positions.size());
+            for (const Vec4f& t : framed.tangents) ASSERT_NEAR(t.length2(), 2, 1e-5);
         } catch (const Error& error) {
             ASSERT_EQ(error.code(), Errc::cannot_read);
             ++refused_count;

@@ -6,7 +6,9 @@
 
 #include <mirrorball/builtin.h>
 #include <mirrorball/compare.h>
+#include <mirrorball/lookup.h>
 #include <mirrorball/prefilter.h>
+#include <mirrorball/projections/cube.h>
 
 #include "synthetic.h"
 
@@ -76,6 +78,127 @@ TEST(ReflectionMaps, LobesOfASceneAreThoseThatAreSeen) {
     scene.objects[1].material.lobe = {Lobe::Kind::phong, 7};
     scene.objects[2].material.glossy = 0.5;
     EXPECT_EQ(lobes_of(scene), std::vector<Lobe>{scene.objects[0].material.lobe});
+}
+
+// What lookups between the levels of the rough maps are off by, in the root mean square over that
+// of what there is, and at the brightest over that.
+struct RoughError {
+    double rms, largest;
+};
+
+RoughError rough_error(const ReflectionMaps& maps, const EnvironmentMap& exact, double alpha) {
+    double error = 0, light = 0, largest = 0, brightest = 0;
+    const std::vector<double> areas =
+        solid_angle_table(exact.projection, exact.width(), exact.height());
+    for (int face = 0; face < Cube::face_count; ++face) {
+        for (int y = 0; y < exact.height(); ++y) {
+            for (int x = 0; x < exact.width(); ++x) {
+                const FacePoint<double> centre{face, (x + 0.5) / exact.width(),
+                                               (y + 0.5) / exact.height()};
+                const Vec3d d = exact.axes.to_world(Cube::direction(centre));
+                const Vec3f truth = exact.levels[0].faces[face].rgb(x, y);
+                const Vec3f off = look_up_rough(maps, d, alpha) - truth;
+                const double area = areas[static_cast<std::size_t>(y) * exact.width() + x];
+                error += area * off.length2();
+                light += area * truth.length2();
+                largest = std::max(largest, static_cast<double>(off.length()));
+                brightest = std::max(brightest, static_cast<double>(truth.length()));
+            }
+        }
+    }
+    return {std::sqrt(error / light), largest / brightest};
+}
+
+ReflectionMaps rough_maps(const EnvironmentMap& sky, Projection projection) {
+    return make_reflection_maps(sky, {}, projection, mirror_map_size(sky, projection),
+                                default_axes(projection), {.rough = true});
+}
+
+// GGX is exact at the levels but for the texels' own interpolation. Between two of them, each the
+// blur of half the other's alpha, what lights leave is met at its peak and a few percent too wide
+// around it. Between the finest and the mirror there is no blur at all on one side.
+TEST(ReflectionMaps, RoughOnesServeEveryAlpha) {
+    struct Case {
+        const char* sky;
+        double between, below_finest;
+    };
+    for (const Case& c : {Case{"sunset", 0.085, 0.4}, Case{"studio", 0.05, 0.1}}) {
+        const EnvironmentMap sky =
+            make_builtin(c.sky, Projection::equirect, 256, default_axes(Projection::equirect));
+        const ReflectionMaps maps = rough_maps(sky, Projection::cube);
+        ASSERT_EQ(maps.rough.level_count(), 6);
+        EXPECT_EQ(maps.rough.width(), 256);
+        EXPECT_EQ(maps.rough.levels[5].lobe, (Lobe{Lobe::Kind::ggx, 1}));
+        std::vector<double> alphas;
+        std::vector<PrefilterTarget> targets;
+        for (double alpha = 1; alpha > 0.007; alpha /= std::exp2(0.5)) {
+            alphas.push_back(alpha);
+            targets.push_back({{Lobe::Kind::ggx, std::sqrt(alpha)}, Projection::cube, 32, {}});
+        }
+        for (PrefilterTarget& target : targets) target.axes = maps.mirror.axes;
+        const std::vector<EnvironmentMap> exact = prefilter(sky, targets);
+        for (std::size_t i = 0; i < alphas.size(); ++i) {
+            const RoughError error = rough_error(maps, exact[i], alphas[i]);
+            const bool at_level = i % 2 == 0 && alphas[i] > 0.03, below = alphas[i] < 0.031;
+            // Next to alpha 1 there is a kink at the horizon, that texels of the last level round.
+            const double tolerance = i == 0     ? 0.015
+                                     : at_level ? 0.006
+                                     : below    ? c.below_finest
+                                                : c.between;
+            EXPECT_LT(error.rms, tolerance) << c.sky << " " << alphas[i];
+            if (!below) {
+                EXPECT_LT(error.largest, 0.12) << c.sky << " " << alphas[i];
+            }
+        }
+    }
+}
+
+TEST(ReflectionMaps, RoughOnesBeginAtTheMirror) {
+    const EnvironmentMap sky = sampled(Projection::equirect, 128, smooth_light);
+    const ReflectionMaps maps = rough_maps(sky, Projection::octahedral);
+    const Vec3d d(0.3, -0.5, 0.7);
+    const double sharp = mirror_alpha(32);
+    EXPECT_EQ(look_up_rough(maps, d, 0), look_up(maps.mirror, d));
+    EXPECT_EQ(look_up_rough(maps, d, sharp), look_up(maps.mirror, d));
+    EXPECT_EQ(look_up_rough(maps, d, 1), look_up(maps.rough, d, maps.rough.level_count() - 1));
+    EXPECT_EQ(look_up_rough(maps, d, 3), look_up_rough(maps, d, 1));
+}
+
+// Nowhere is there a step: neither where levels meet nor where the mirror begins.
+TEST(ReflectionMaps, RoughPlacesAreContinuous) {
+    constexpr int kLevels = 6;
+    const double finest = std::exp2(1 - kLevels), sharp = mirror_alpha(64);
+    for (int level = 0; level < kLevels; ++level) {
+        const double alpha = finest * std::exp2(level);
+        EXPECT_DOUBLE_EQ(rough_place(alpha, kLevels, sharp).lod, level);
+        EXPECT_NEAR(rough_place(alpha * (1 - 1e-9), kLevels, sharp).lod, level, 1e-8);
+    }
+    EXPECT_NEAR(rough_place(finest * (1 - 1e-9), kLevels, sharp).share, 1, 1e-8);
+    EXPECT_NEAR(rough_place(sharp * (1 + 1e-9), kLevels, sharp).share, 0, 1e-8);
+    EXPECT_EQ(rough_place(0, kLevels, sharp).share, 0);
+    // A mirror's map coarser than the finest level.
+    EXPECT_NEAR(rough_place(finest * (1 - 1e-9), kLevels, mirror_alpha(4)).share, 1, 1e-8);
+    double before = 0;
+    for (double alpha = 1e-3; alpha < 1.2; alpha *= 1.01) {
+        const RoughPlace place = rough_place(alpha, kLevels, sharp);
+        EXPECT_GE(place.share + place.lod, before);
+        before = place.share + place.lod;
+    }
+}
+
+TEST(ReflectionMaps, RoughOnesOfUniformLightAreUniform) {
+    const EnvironmentMap white =
+        sampled(Projection::cube, 16, [](const Vec3d&) { return Vec3d(1); });
+    const ReflectionMaps maps = rough_maps(white, Projection::equirect);
+    for (const double alpha : {0.0, 0.02, 0.1, 0.3, 0.7, 1.0})
+        EXPECT_NEAR(look_up_rough(maps, {0.1, 0.9, -0.3}, alpha).y, 1, 2e-5) << alpha;
+}
+
+TEST(ReflectionMaps, NoRoughOnesUnlessAskedFor) {
+    const EnvironmentMap white =
+        sampled(Projection::cube, 16, [](const Vec3d&) { return Vec3d(1); });
+    const Axes axes = default_axes(Projection::cube);
+    EXPECT_EQ(make_reflection_maps(white, {}, Projection::cube, 16, axes).rough.level_count(), 0);
 }
 
 }  // namespace

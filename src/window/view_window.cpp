@@ -1,0 +1,274 @@
+// The loop: what came in, the picture, the controls, the screen.
+#include "view_window.h"
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <mirrorball/error.h>
+#include <mirrorball/io.h>
+
+#include "desktop.h"
+#include "gl/check.h"
+#include "gl/objects.h"
+#include "io/codec.h"
+#include "map_strip.h"
+#include "overlay.h"
+#include "panel.h"
+#include "session.h"
+#include "theme.h"
+
+namespace mirrorball::window {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kPanelWidth = 330;  // at scale 1
+constexpr double kIdleSeconds = 0.25;
+
+// ImGui with its backends, as long as the window is there.
+class Interface {
+  public:
+    Interface(GLFWwindow* window, bool es) {
+        ImGui::CreateContext();
+        ImGui::GetIO().IniFilename = nullptr;  // nothing is remembered
+        ImGui_ImplGlfw_InitForOpenGL(window, true);
+        ImGui_ImplOpenGL3_Init(es ? "#version 300 es" : "#version 330 core");
+    }
+    ~Interface() {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+    Interface(const Interface&) = delete;
+    Interface& operator=(const Interface&) = delete;
+
+    void set_scale(double scale) {
+        apply_theme(scale);
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_CreateFontsTexture();
+    }
+};
+
+// Bytes of a framebuffer as linear light, which a picture's file encodes to the same bytes.
+Image read_pixels(int left, int bottom, int width, int height) {
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(width) * height * 4);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(left, bottom, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+    gl::check("reading the window's picture");
+    Image image(width, height, 3);
+    for (int y = 0; y < height; ++y) {
+        const std::uint8_t* row = bytes.data() + std::size_t{4} * width * (height - 1 - y);
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < 3; ++c)
+                image.at(x, y)[c] =
+                    detail::srgb_to_linear(static_cast<float>(row[4 * x + c]) / 255);
+    }
+    return image;
+}
+
+class ViewWindow {
+  public:
+    ViewWindow(const std::function<Viewer()>& make_viewer, const Options& options)
+        : options_(options),
+          desktop_(options.width, options.height, options.es, !is_scripted()),
+          interface_(desktop_.handle(), gl::driver().es),
+          viewer_(make_viewer()),
+          session_(viewer_) {
+        session_.panel_open = options.panel;
+    }
+
+    Report run();
+
+  private:
+    [[nodiscard]] bool is_scripted() const { return options_.frames > 0; }
+    [[nodiscard]] bool is_done(int frame) const;
+    void wait();
+    void take_events();
+    void take_step();
+    void do_step(const ResizeStep& step);
+    void do_step(const DropStep& step) { session_.drop(step.file); }
+    void do_step(const KeyStep& step) { session_.press(step.key); }
+    void do_step(const DragStep& step) { drag_ = step; }
+    void do_step(const WaitStep& step) { waiting_ = step.frames - 1; }
+    void lay_out();
+    void draw_frame();
+    void draw_picture();
+    void write_screenshot(const std::filesystem::path& path);
+    void take_picture_asked();
+
+    Options options_;
+    Desktop desktop_;
+    Interface interface_;
+    Viewer viewer_;
+    Session session_;
+    MapStrip strip_;
+    std::size_t next_step_ = 0;
+    int waiting_ = 0;
+    std::optional<DragStep> drag_;
+    double applied_scale_ = 0;
+    int lively_frames_ = 3;  // drawn without waiting: controls settle in a few frames
+    Area panel_, maps_;
+};
+
+bool ViewWindow::is_done(int frame) const {
+    if (desktop_.is_closed() || session_.quit) return true;
+    return is_scripted() && frame >= options_.frames && next_step_ == options_.script.size() &&
+           waiting_ == 0 && !drag_;
+}
+
+// Only while there is nothing to draw.
+void ViewWindow::wait() {
+    const bool busy = is_scripted() || lively_frames_ > 0 || !viewer_.is_smooth();
+    lively_frames_ = std::max(0, lively_frames_ - 1);
+    if (busy) return desktop_.wait(0);
+    const Clock::time_point start = Clock::now();
+    desktop_.wait(kIdleSeconds);
+    if (std::chrono::duration<double>(Clock::now() - start).count() < kIdleSeconds)
+        lively_frames_ = 3;
+}
+
+void ViewWindow::take_events() {
+    const Events events = desktop_.take_events();
+    for (const std::string& file : events.dropped) session_.drop(file);
+    if (ImGui::GetIO().WantTextInput) return;
+    for (const std::string& key : events.keys) session_.press(key);
+}
+
+// Sizes are asked for, and come when the screen has made them.
+void ViewWindow::do_step(const ResizeStep& step) {
+    constexpr int kPatience = 200;
+    desktop_.resize(step.width, step.height);
+    for (int i = 0; i < kPatience && !(desktop_.pixels() == Desktop::Size{step.width, step.height});
+         ++i)
+        desktop_.wait(0.01);
+}
+
+void ViewWindow::take_step() {
+    if (drag_) {
+        viewer_.orbit(drag_->dx / drag_->frames, drag_->dy / drag_->frames,
+                      std::max(1, session_.picture.height));
+        drag_->dx -= drag_->dx / drag_->frames;
+        drag_->dy -= drag_->dy / drag_->frames;
+        if (--drag_->frames == 0) drag_.reset();
+        return;
+    }
+    if (waiting_ > 0) {
+        --waiting_;
+        return;
+    }
+    if (next_step_ == options_.script.size()) return;
+    std::visit([&](const auto& step) { do_step(step); }, options_.script[next_step_++]);
+}
+
+// The panel at the right and the maps below take what the picture can spare.
+void ViewWindow::lay_out() {
+    const double scale = options_.scale > 0 ? options_.scale : desktop_.scale();
+    if (scale != applied_scale_) interface_.set_scale(scale);
+    applied_scale_ = session_.scale = scale;
+    const auto [width, height] = desktop_.pixels();
+    const int panel_width = static_cast<int>(kPanelWidth * scale);
+    session_.picture = {0, 0, width, height};
+    panel_ = maps_ = {};
+    if (!session_.panel_open || width < 2 * panel_width) return;
+    session_.picture.width = width - panel_width;
+    panel_ = {static_cast<double>(width - panel_width), 0, panel_width, height};
+}
+
+void ViewWindow::draw_picture() {
+    const auto [width, height] = desktop_.pixels();
+    const Area& area = session_.picture;
+    if (area.width < 1 || area.height < 1) return;
+    const int bottom = height - area.height - static_cast<int>(area.top);
+    session_.attempt(
+        [&] { viewer_.draw(area.width, area.height, static_cast<int>(area.left), bottom); });
+}
+
+// Into the framebuffer that is bound.
+void ViewWindow::draw_frame() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    if (panel_.width > 0) {
+        const int strip = MapStrip::height_for(session_.picture.width, session_.scale);
+        if (session_.picture.height > 2 * strip) {
+            session_.picture.height -= strip;
+            maps_ = {0, static_cast<double>(session_.picture.height), session_.picture.width,
+                     strip};
+        }
+    }
+    draw_overlay(session_);
+    if (panel_.width > 0) draw_panel(session_, panel_);
+    if (maps_.width > 0) strip_.draw(session_, maps_);
+    ImGui::Render();
+    draw_picture();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+// What the window shows, with its controls if they are there. From a framebuffer of our own: what
+// is hidden of a window has no pixels.
+void ViewWindow::write_screenshot(const std::filesystem::path& path) {
+    const auto [width, height] = desktop_.pixels();
+    const gl::Framebuffer framebuffer;
+    const gl::Renderbuffer picture;
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    glBindRenderbuffer(GL_RENDERBUFFER, picture.name());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                              picture.name());
+    gl::check_framebuffer("making room for a picture of the window");
+    draw_picture();
+    if (session_.panel_open) ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    const Image image = read_pixels(0, 0, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    write_image(path, image);
+}
+
+void ViewWindow::take_picture_asked() {
+    session_.screenshot_asked = false;
+    session_.attempt([&] {
+        std::filesystem::path path;
+        for (int i = 1; path.empty() || std::filesystem::exists(path); ++i)
+            path = fmt::format("mirrorball-{}.png", i);
+        write_screenshot(path);
+        session_.tell(fmt::format("{} is written", path.string()));
+    });
+}
+
+Report ViewWindow::run() {
+    Report report;
+    report.driver = gl::driver();
+    const Clock::time_point begin = Clock::now();
+    for (int frame = 0; !is_done(frame); ++frame) {
+        if (options_.stop && options_.stop())
+            throw Error(Errc::cancelled, "the window was closed by a signal");
+        wait();
+        const Clock::time_point start = Clock::now();
+        session_.clock = std::chrono::duration<double>(start - begin).count();
+        take_events();
+        take_step();
+        lay_out();
+        draw_frame();
+        if (session_.screenshot_asked) take_picture_asked();
+        desktop_.swap();
+        if (is_scripted()) glFinish();
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        report.seconds.push_back(seconds);
+        session_.frame_seconds += (seconds - session_.frame_seconds) * 0.2;
+    }
+    if (!options_.screenshot.empty()) write_screenshot(options_.screenshot);
+    return report;
+}
+
+}  // namespace
+
+Report show(const std::function<Viewer()>& make_viewer, const Options& options) {
+    return ViewWindow(make_viewer, options).run();
+}
+
+}  // namespace mirrorball::window
