@@ -9,6 +9,9 @@ INPUT ?= builtin:sunset
 DEMO ?= demo
 # More options for CMake: make CONFIGURE=-DCMAKE_CXX_COMPILER=clang++
 CONFIGURE ?=
+# The same for the page; and `make test WEB=no` leaves it out.
+WEB_CONFIGURE ?=
+WEB ?= yes
 PROGRAM := build/release/mirrorball
 
 help:  ## list the jobs
@@ -33,12 +36,19 @@ gallery:  ## make the pictures of docs/gallery again, by the commands in its REA
 	@cmake --build --preset release --target mirrorball_program
 	@scripts/gallery.sh build/release
 
-test: build  ## build everything and run all tests
+test: build  ## build everything and run all tests; the page's too where its packages are installed
+ifeq ($(WEB),no)
+	@ctest --preset release -E '^web$$'
+else
+	@missing=$$(scripts/install-packages.sh --missing web | paste -sd ' '); \
+	if [ -z "$$missing" ]; then $(MAKE) web; \
+	else printf 'The page for browsers is not tested: the packages %s are missing (make web installs them)\n' "$$missing"; fi
 	@ctest --preset release
+endif
 
 web:  ## build the page for browsers: a folder of static files, build/web/page
 	@scripts/install-packages.sh build web
-	@cmake --preset web $(CONFIGURE)
+	@cmake --preset web $(WEB_CONFIGURE)
 	@cmake --build --preset web
 	@printf '\nThe page is in %s; to see it:  %s serve\n' '$(abspath build/web/page)' '$(PROGRAM)'
 

@@ -46,11 +46,10 @@ function send_maps() {
   for (const projection of map_wish.projections) {
     const picture = page.map_picture(map_wish.content, projection, map_wish.height);
     if (picture.error) return tell({ failure: picture.error });
+    if (sent_maps.get(projection) === picture.version) continue;
+    sent_maps.set(projection, picture.version);
     const rgba = new Uint8ClampedArray(picture.rgba);
-    const before = sent_maps.get(projection);
-    if (before && before.length === rgba.length && before.every((v, i) => v === rgba[i])) continue;
-    sent_maps.set(projection, rgba);
-    maps.push({ projection, picture: new ImageData(rgba.slice(), picture.width, picture.height) });
+    maps.push({ projection, picture: new ImageData(rgba, picture.width, picture.height) });
   }
   if (maps.length) tell({ maps });
 }

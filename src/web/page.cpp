@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <mirrorball/builtin.h>
+#include <mirrorball/bump.h>
 #include <mirrorball/error.h>
 #include <mirrorball/fresnel.h>
 #include <mirrorball/gl/context.h>
@@ -65,11 +66,10 @@ class Page {
     /// What there is to choose from. \pre the context is current
     static std::string facts() {
         return reply([] {
-            json facts{{"version", MIRRORBALL_VERSION},
-                       {"renderer", gl::driver().renderer},
-                       {"environments", named(builtins())},
-                       {"meshes", named(builtin_meshes())},
-                       {"materials", named(material_presets())}};
+            json facts{
+                {"version", MIRRORBALL_VERSION},     {"renderer", gl::driver().renderer},
+                {"environments", named(builtins())}, {"meshes", named(builtin_meshes())},
+                {"bumps", named(bump_sources())},    {"materials", named(material_presets())}};
             for (const Method method : all_methods())
                 facts["methods"].push_back(
                     {{"name", name(method)}, {"description", describe(method)}});
@@ -197,6 +197,7 @@ class Page {
                 viewer_->map_picture(content_of(content), parse_projection(projection), height);
             result.set("width", picture.width);
             result.set("height", picture.height);
+            result.set("version", static_cast<double>(picture.version));
             result.set("rgba", emscripten::val(emscripten::typed_memory_view(picture.rgba.size(),
                                                                              picture.rgba.data())));
             return json::object();
