@@ -77,13 +77,13 @@ asan:  ## build and run the tests under the address and undefined-behaviour sani
 	@scripts/install-packages.sh build test
 	@cmake --preset asan $(CONFIGURE)
 	@cmake --build --preset asan
-	@ctest --preset asan
+	@ctest --preset asan -E '^web$$'
 
 tsan:  ## build and run the tests under the thread sanitizer
 	@scripts/install-packages.sh build test
 	@cmake --preset tsan $(CONFIGURE)
 	@cmake --build --preset tsan
-	@ctest --preset tsan
+	@ctest --preset tsan -E '^web$$'
 
 fuzz:  ## feed each decoder malformed files for a bounded number of runs
 	@scripts/install-packages.sh build test fuzz

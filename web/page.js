@@ -17,7 +17,11 @@ function ask(call, args = [], transfer = []) {
   return new Promise((resolve, reject) => waiting.set(id, { resolve, reject }));
 }
 
-worker.onerror = (event) => show_error(event.message || 'The page’s files could not be loaded.');
+worker.onerror = (event) => {
+  ready_text = 'Stopped.';
+  show_stage('');
+  show_error(event.message || 'The page’s files could not be loaded.');
+};
 worker.onmessage = ({ data }) => {
   if (data.id) {
     const { resolve, reject } = waiting.get(data.id);
@@ -655,4 +659,4 @@ async function start() {
 if (!globalThis.WebAssembly || !canvas.transferControlToOffscreen)
   show_error('This browser is too old: WebAssembly and drawing away from the page are needed.');
 else
-  start().catch((error) => { show_stage('Stopped.'); show_error(error.message); });
+  start().catch((error) => { ready_text = 'Stopped.'; show_stage(''); show_error(error.message); });

@@ -119,11 +119,11 @@ const calls = {
     module.FS.chdir(kFolder);
     page = new module.Page();
     tell({ stage: 'Prefiltering …' });
-    let answer = parsed(page.open(state));
+    let answer = parsed(page.open(state, width / height));
     let warning;
     if (answer.error && state) {
       warning = answer.error;
-      answer = parsed(page.open(''));
+      answer = parsed(page.open('', width / height));
     }
     if (answer.error) return answer;
     drawable = true;

@@ -87,9 +87,16 @@ class Page {
     }
 
     /// Opens the viewer: in the state that a link has, or the usual one.
-    std::string open(const std::string& state) {
+    std::string open(const std::string& state, double aspect) {
         return reply([&] {
-            viewer_.emplace();
+            Scene scene;
+            scene.objects.push_back({.name = {},
+                                     .mesh = "teapot",
+                                     .transform = {},
+                                     .material = preset_material("chrome")});
+            viewer_.emplace(scene, std::filesystem::path(),
+                            Viewer::Options{.memory_limit = kMemoryLimit});
+            viewer_->frame_all(aspect);
             if (!state.empty()) viewer_->set_state(state);
             return json::object();
         });
