@@ -6,23 +6,27 @@ const canvas = $('canvas');
 
 // The worker -------------------------------------------------------------------------------------
 
-const worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
 const waiting = new Map();
 let next_id = 0;
+const make_worker = () => new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
+const worker = make_worker();
+// Built-in environments are drawn in another thread, as that takes seconds.
+let painter;
 
 // Resolves to the answer; one with an `error` is shown and thrown.
-function ask(call, args = [], transfer = []) {
+function ask_of(one, call, args, transfer = []) {
   const id = ++next_id;
-  worker.postMessage({ id, call, args }, transfer);
+  one.postMessage({ id, call, args }, transfer);
   return new Promise((resolve, reject) => waiting.set(id, { resolve, reject }));
 }
+const ask = (call, args = [], transfer = []) => ask_of(worker, call, args, transfer);
 
 worker.onerror = (event) => {
   ready_text = 'Stopped.';
   show_stage('');
   show_error(event.message || 'The page’s files could not be loaded.');
 };
-worker.onmessage = ({ data }) => {
+const on_message = ({ data }) => {
   if (data.id) {
     const { resolve, reject } = waiting.get(data.id);
     waiting.delete(data.id);
@@ -38,6 +42,7 @@ worker.onmessage = ({ data }) => {
   if (data.failure) show_error(data.failure);
   for (const map of data.maps ?? []) show_map(map);
 };
+worker.onmessage = on_message;
 
 // Changes go one after the other; while one is on its way only the newest of a kind waits.
 const newest = new Map();
@@ -73,7 +78,7 @@ function show_error(text) {
 function on_frame(frame) {
   if (frame.error) return show_error(frame.error);
   $('frame-time').textContent = `${frame.milliseconds.toFixed(0)} ms`;
-  document.body.dataset.frames = frame.count;
+  if (frame.changed) document.body.dataset.changes = frame.count;
   document.body.dataset.smooth = frame.smooth;
 }
 
@@ -344,9 +349,7 @@ function wire_controls() {
     show_range($(id), value);
     change_material({ [id]: Number(value) });
   });
-  on('environment', 'change', (source) => busy_change((scene) => {
-    scene.environment = { ...scene.environment, source };
-  }));
+  on('environment', 'change', (source) => paint_environment(source));
   on('turn', 'input', (degrees) => {
     show_range($('turn'), degrees);
     change_scene((scene) => {
@@ -430,6 +433,28 @@ function wire_controls() {
   $('controls').addEventListener('submit', (event) => event.preventDefault());
 }
 
+// A built-in environment, drawn elsewhere, and then in place of what is shown: if nobody has chosen
+// another one meanwhile.
+let painting = '';
+async function paint_environment(source) {
+  painting = source;
+  show_stage(`Drawing ${base_name(source)} …`);
+  if (!painter) {
+    painter = make_worker();
+    painter.onmessage = on_message;
+  }
+  try {
+    const map = await ask_of(painter, 'builtin', [source]);
+    if (painting !== source) return;
+    await ask('take_builtin', [source, map], [map.values.buffer]);
+    painting = '';
+    document.body.dataset.painted = source;
+    show_error('');
+  } catch { /* it is on the page */ }
+  await refresh();
+  show_stage('');
+}
+
 // Of what may take a while.
 function busy_change(change) {
   show_stage('Prefiltering …');
@@ -450,6 +475,7 @@ function save(blob, name) {
 // Files ------------------------------------------------------------------------------------------
 
 async function open_files(files) {
+  painting = '';
   for (const file of files) {
     try {
       const buffer = await file.arrayBuffer();
@@ -535,15 +561,19 @@ function wire_picture() {
     if (event.key === 'Escape') return show_error('');
     if (!known_keys(event.key)) return;
     event.preventDefault();
+    if (event.key.toLowerCase() === 'e') return step_environment(event.key === 'e' ? 1 : -1);
     ask('press', [event.key, aspect()]).then(refresh, () => {});
   });
 
-  const resize = () => {
-    const ratio = Math.min(devicePixelRatio || 1, 2);
-    return [Math.max(1, Math.round(canvas.clientWidth * ratio)),
-      Math.max(1, Math.round(canvas.clientHeight * ratio))];
-  };
-  new ResizeObserver(() => ask_newest('size', () => ask('resize', resize()))).observe(canvas);
+  new ResizeObserver(() => ask_newest('size', () => ask('resize', canvas_size()))).observe(canvas);
+}
+
+function step_environment(step) {
+  const sources = facts.environments.map((one) => `builtin:${one.name}`);
+  const at = sources.indexOf($('environment').value);
+  const source = sources[(at + step + sources.length) % sources.length];
+  choose($('environment'), source, base_name(source));
+  paint_environment(source);
 }
 
 // Keys that are one character or an arrow; Tab and the like stay the browser's.
@@ -569,7 +599,7 @@ function look_at(event) {
 }
 const canvas_size = () => {
   const ratio = Math.min(devicePixelRatio || 1, 2);
-  return [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
+  return [canvas.clientWidth, canvas.clientHeight].map((side) => Math.max(1, Math.round(side * ratio)));
 };
 function hide_marks() {
   for (const mark of document.querySelectorAll('.mark')) mark.hidden = true;
@@ -639,8 +669,7 @@ async function start() {
   show_stage('Loading …');
   const target = canvas.transferControlToOffscreen();
   const [width, height] = canvas_size();
-  const started = await ask('start', [target, Math.max(1, width), Math.max(1, height),
-    state_of_address()], [target]);
+  const started = await ask('start', [target, width, height, state_of_address()], [target]);
   facts = started.facts;
   fill_lists();
   make_map_list();
@@ -652,6 +681,8 @@ async function start() {
   show_stage('');
   if (started.warning) show_error(started.warning);
   document.body.dataset.ready = performance.now().toFixed(0);
+  const source = environment().source ?? 'builtin:sunset';
+  if (!is_file(source)) paint_environment(source);
   // For tests, and for whoever likes the console.
   globalThis.mirrorball = { ask, refresh };
 }

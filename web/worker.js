@@ -9,6 +9,9 @@ import load_mirrorball from './mirrorball.js';
 const kFolder = '/files';
 let module, page, canvas, gl;
 let scheduled = false, drawable = false, map_wish = null, sent_maps = new Map(), drawn_count = 0;
+// The picture's size in pixels; while it changes it may be drawn smaller, so that it follows the hand.
+let full = [1, 1], share = 1, resting = 0;
+const kSlow = 40, kQuick = 20, kLeastShare = 0.2, kRest = 200;  // milliseconds, and of a side
 
 const parsed = (text) => JSON.parse(text);
 const tell = (message, transfer = []) => self.postMessage(message, transfer);
@@ -23,14 +26,38 @@ function draw_once() {
   return { ...answer, milliseconds: performance.now() - start, count: ++drawn_count };
 }
 
+function set_size(share) {
+  const [width, height] = full.map((side) => Math.max(1, Math.round(side * share)));
+  if (canvas.width === width && canvas.height === height) return;
+  canvas.width = width;
+  canvas.height = height;
+}
+
+// While things change: as large as the machine draws in time.
 function tick() {
   scheduled = false;
   if (!drawable) return;
+  set_size(share);
+  const frame = draw_once();
+  tell({ frame: { ...frame, changed: true, smooth: false } });
+  if (frame.error) return;
+  if (frame.milliseconds > kSlow)
+    share = Math.max(kLeastShare, share * Math.max(0.5, Math.sqrt(kSlow / frame.milliseconds) * 0.9));
+  else if (frame.milliseconds < kQuick)
+    share = Math.min(1, share * 1.25);
+  clearTimeout(resting);
+  resting = setTimeout(rest, share < 1 ? kRest : 0);
+}
+
+// When nothing changes any more: whole, and smoother with each.
+function rest() {
+  if (scheduled) return;
+  set_size(1);
   const frame = draw_once();
   tell({ frame });
   if (frame.error) return;
-  if (!frame.smooth) return schedule();
-  send_maps();
+  if (frame.smooth) return send_maps();
+  resting = setTimeout(rest, 0);
 }
 
 function schedule() {
@@ -79,6 +106,19 @@ async function decoded(bytes) {
   return file;
 }
 
+// A picture of floats as a file: rows from the bottom, in this machine's order of bytes.
+function pfm(width, height, values) {
+  const head = new TextEncoder().encode(`PF\n${width} ${height}\n-1.0\n`);
+  const file = new Uint8Array(head.length + values.byteLength);
+  file.set(head);
+  const row = 3 * width;
+  for (let y = 0; y < height; ++y) {
+    const line = values.subarray((height - 1 - y) * row, (height - y) * row);
+    file.set(new Uint8Array(line.buffer, line.byteOffset, line.byteLength), head.length + 4 * y * row);
+  }
+  return file;
+}
+
 async function open_file(name, buffer) {
   let bytes = new Uint8Array(buffer);
   const safe = name.replace(/[/,\0]/g, '_') || 'file';
@@ -103,8 +143,8 @@ const calls = {
     tell({ stage: 'Loading the library …' });
     module = await load_mirrorball();
     canvas = target;
-    canvas.width = width;
-    canvas.height = height;
+    full = [width, height];
+    set_size(1);
     const handle = module.GL.createContext(canvas, {
       majorVersion: 2, minorVersion: 0, alpha: false, depth: false, stencil: false,
       antialias: false, powerPreference: 'high-performance', enableExtensionsByDefault: true });
@@ -127,15 +167,16 @@ const calls = {
     }
     if (answer.error) return answer;
     drawable = true;
+    set_size(share = 0.5);
     const first = draw_once();
     tell({ frame: first });
     schedule();
     return { facts: parsed(module.Page.facts()), warning, error: first.error };
   },
   resize(width, height) {
-    if (canvas.width === width && canvas.height === height) return;
-    canvas.width = width;
-    canvas.height = height;
+    if (full[0] === width && full[1] === height) return;
+    full = [width, height];
+    set_size(share);
     // In the same turn: no empty picture is shown in between.
     tell({ frame: draw_once() });
   },
@@ -146,9 +187,25 @@ const calls = {
     if (answer.error) return answer;
     tell({ stage: 'Prefiltering …' });
     const start = performance.now();
+    set_size(share);
     const frame = draw_once();
     tell({ frame });
     return frame.error ? frame : { ...answer, milliseconds: performance.now() - start };
+  },
+  // Of a worker that draws nothing, for one that does.
+  async builtin(source) {
+    module ??= await load_mirrorball();
+    page ??= new module.Page();
+    const map = page.builtin(source);
+    if (map.error) return { error: map.error };
+    return { width: map.width, height: map.height, values: new Float32Array(map.values) };
+  },
+  take_builtin(source, { width, height, values }) {
+    const file = `${kFolder}/.builtin.pfm`;
+    module.FS.writeFile(file, pfm(width, height, values));
+    const answer = parsed(page.take_builtin(source, file));
+    module.FS.unlink(file);
+    return answer;
   },
   set_scene: (scene) => parsed(page.set_scene(JSON.stringify(scene))),
   set_state: (state) => parsed(page.set_state(state)),
@@ -160,13 +217,14 @@ const calls = {
   turn: (...all) => parsed(page.turn(...all)),
   frame_all: (aspect) => page.frame_all(aspect),
   press: (...all) => parsed(page.press(...all)),
-  hover: (x, y) => parsed(page.hover(x, y, canvas.width, canvas.height)),
+  hover: (x, y) => parsed(page.hover(x, y, ...full)),
   show_maps(wish) {
     if (wish.content !== map_wish?.content || wish.height !== map_wish?.height) sent_maps.clear();
     map_wish = wish;
   },
   // The picture, as smooth as it gets.
   async screenshot() {
+    set_size(1);
     let frame;
     do frame = draw_once(); while (!frame.error && !frame.smooth);
     if (frame.error) return frame;
@@ -175,7 +233,7 @@ const calls = {
 };
 
 // Calls change nothing in the picture, or it is drawn anew.
-const silent = new Set(['status', 'hover', 'screenshot']);
+const silent = new Set(['status', 'hover', 'screenshot', 'builtin', 'show_maps']);
 let last = Promise.resolve();
 
 async function answer({ id, call, args }) {
@@ -188,6 +246,7 @@ async function answer({ id, call, args }) {
   tell({ id, result: result ?? {} });
   if (call === 'start' || call === 'open_file') tell({ stage: '' });
   if (!silent.has(call)) schedule();
+  if (call === 'show_maps') rest();
 }
 
 // In their order, also where one waits for something.

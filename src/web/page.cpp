@@ -19,6 +19,8 @@
 #include <mirrorball/scene_file.h>
 #include <mirrorball/viewer.h>
 
+#include "viewer/viewer_state.h"
+
 namespace mirrorball {
 namespace {
 
@@ -26,6 +28,10 @@ using nlohmann::json;
 
 // Of a browser's 2 GiB, so that what is made of a map has room, too.
 constexpr std::uint64_t kMemoryLimit = std::uint64_t{512} << 20;
+
+constexpr std::string_view kBuiltin = "builtin:";
+// Of the panorama that stands for one whose drawing takes its time.
+constexpr int kCoarseWidth = 128;
 
 constexpr Projection kShownProjections[] = {Projection::equirect, Projection::cube,
                                             Projection::sphere, Projection::dual_paraboloid,
@@ -86,18 +92,58 @@ class Page {
         });
     }
 
-    /// Opens the viewer: in the state that a link has, or the usual one.
-    std::string open(const std::string& state, double aspect) {
+    /// Opens the viewer: in the state that a link has, or the usual one. A built-in environment is
+    /// a coarse one at first, until take_builtin() brings it.
+    std::string open(const std::string& text, double aspect) {
         return reply([&] {
-            Scene scene;
-            scene.objects.push_back({.name = {},
-                                     .mesh = "teapot",
-                                     .transform = {},
-                                     .material = preset_material("chrome")});
-            viewer_.emplace(scene, std::filesystem::path(),
+            ViewerState state;
+            if (text.empty()) {
+                state.scene.objects.emplace_back().mesh = "teapot";
+                state.scene.objects.back().material = preset_material("chrome");
+            } else {
+                state = parse_viewer_state(text);
+            }
+            const std::string source = state.scene.environment.source;
+            const bool is_builtin = source.starts_with(kBuiltin);
+            if (is_builtin) state.scene.environment.source = "builtin:white";
+            viewer_.emplace(state.scene, std::filesystem::path(),
                             Viewer::Options{.memory_limit = kMemoryLimit});
-            viewer_->frame_all(aspect);
-            if (!state.empty()) viewer_->set_state(state);
+            if (is_builtin) {
+                LoadedMap coarse;
+                coarse.map = make_builtin(source.substr(kBuiltin.size()), Projection::equirect,
+                                          kCoarseWidth, default_axes(Projection::equirect));
+                coarse.format = "built-in";
+                take(source, std::move(coarse));
+            }
+            viewer_->set_comparison(state.comparison);
+            viewer_->select(state.selected);
+            if (text.empty()) viewer_->frame_all(aspect);
+            return json::object();
+        });
+    }
+
+    /// A built-in environment as read_map() has it, for another thread's viewer: its texels, in
+    /// this module's memory, from the top.
+    emscripten::val builtin(const std::string& source) {
+        auto result = emscripten::val::object();
+        const std::string answer = reply([&] {
+            made_ = read_map(source).map.levels[0].faces[0];
+            result.set("width", made_.width());
+            result.set("height", made_.height());
+            result.set("values", emscripten::val(emscripten::typed_memory_view(
+                                     made_.values().size(), made_.values().data())));
+            return json::object();
+        });
+        if (answer != "{}") result.set("error", json::parse(answer)["error"].get<std::string>());
+        return result;
+    }
+    /// The same, from a file in this module's file system.
+    std::string take_builtin(const std::string& source, const std::string& path) {
+        return reply([&] {
+            LoadedMap map = read_map(path);
+            map.format = "built-in";
+            map.notes.clear();
+            take(source, std::move(map));
             return json::object();
         });
     }
@@ -214,7 +260,18 @@ class Page {
     }
 
   private:
+    // In place of the environment that is shown, of which all else stays.
+    void take(const std::string& source, LoadedMap map) {
+        const double exposure = viewer_->scene().exposure;
+        const Dropped dropped = viewer_->drop_environment(source, std::move(map));
+        if (!dropped.taken) throw Error(Errc::cannot_read, dropped.message);
+        Scene scene = viewer_->scene();
+        scene.exposure = exposure;
+        viewer_->set_scene(scene);
+    }
+
     std::optional<Viewer> viewer_;
+    Image made_;
 };
 
 }  // namespace
@@ -226,6 +283,8 @@ EMSCRIPTEN_BINDINGS(mirrorball) {
         .constructor<>()
         .class_function("facts", &Page::facts)
         .function("open", &Page::open)
+        .function("builtin", &Page::builtin)
+        .function("take_builtin", &Page::take_builtin)
         .function("status", &Page::status)
         .function("set_scene", &Page::set_scene)
         .function("set_state", &Page::set_state)
