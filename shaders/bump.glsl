@@ -38,6 +38,12 @@ Bump bump_at(vec2 place, vec2 place_dx, vec2 place_dy) {
     return Bump(texel.rg * u_bump_strength, variance, texel.a);
 }
 
+// Slopes of a normal distribution are Beckmann's with alpha^2 = 2 variance; a GGX lobe has long
+// tails, and the same median with ln 2 of that.
+float added_alpha2(float variance) {
+    return 1.386294 * variance;
+}
+
 #ifdef HAS_RELIEF
 bool is_in_relief(vec2 place, float depth, float level) {
     return 1.0 - textureLod(u_bump_map, place, level).a <= depth;

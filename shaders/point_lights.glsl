@@ -12,8 +12,8 @@ uniform float u_light_is_point[LIGHT_COUNT];
 uniform float u_exponent;    // of phong and blinn-phong
 uniform float u_lobe_scale;  // that normalises those
 
-// The lobe's BRDF times its weight in the layer. `variance` is that of slopes too fine to be seen.
-vec3 glossy_brdf(vec3 n, vec3 l, vec3 v, Weights weights, float variance) {
+// The lobe's BRDF times its weight in the layer. `added_alpha2` makes GGX rougher.
+vec3 glossy_brdf(vec3 n, vec3 l, vec3 v, Weights weights, float added_alpha2) {
     vec3 h = normalize(l + v);
     float n_dot_l = dot(n, l), n_dot_v = dot(n, v), n_dot_h = dot(n, h);
 #if LOBE == PHONG
@@ -23,7 +23,7 @@ vec3 glossy_brdf(vec3 n, vec3 l, vec3 v, Weights weights, float variance) {
     return weights.layer * (n_dot_h > 0.0 ? u_lobe_scale * pow(n_dot_h, u_exponent) : 0.0);
 #elif LOBE == GGX
     float alpha = u_roughness * u_roughness;
-    float alpha2 = min(1.0, alpha * alpha + 2.0 * variance);
+    float alpha2 = min(1.0, alpha * alpha + added_alpha2);
     if (alpha2 < 1e-8) return vec3(0.0);  // a mirror
     vec3 across = h - n_dot_h * n;  // its length is the sine, which does not cancel
     float spread = dot(across, across) / alpha2 + n_dot_h * n_dot_h;
@@ -47,7 +47,7 @@ struct Lit {
     vec3 base, layer;
 };
 
-Lit light_of_lights(vec3 position, vec3 n, vec3 v, Weights weights, float variance) {
+Lit light_of_lights(vec3 position, vec3 n, vec3 v, Weights weights, float added_alpha2) {
     Lit lit = Lit(vec3(0.0), vec3(0.0));
     for (int i = 0; i < LIGHT_COUNT; ++i) {
         vec3 to_light = u_light_place[i] - u_light_is_point[i] * position;
@@ -59,7 +59,7 @@ Lit light_of_lights(vec3 position, vec3 n, vec3 v, Weights weights, float varian
             u_light_strength[i] * n_dot_l / (u_light_is_point[i] > 0.0 ? distance2 : 1.0);
         lit.base += arriving;
 #ifdef HAS_GLOSSY
-        lit.layer += u_glossy * glossy_brdf(n, l, v, weights, variance) * arriving;
+        lit.layer += u_glossy * glossy_brdf(n, l, v, weights, added_alpha2) * arriving;
 #endif
     }
     lit.base *= weights.base * u_diffuse / PI;

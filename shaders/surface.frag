@@ -39,8 +39,8 @@ struct Point {
     vec3 n, smooth_normal, v;
     bool behind;
     vec2 texture_coordinate;
-    float variance;   // of slopes that are too fine to be seen
-    float luminance;  // what light of maps is multiplied by
+    float added_alpha2;  // to the square of GGX's alpha, for bumps too fine to be seen
+    float luminance;     // what light of maps is multiplied by
 };
 
 #ifdef HAS_BUMP
@@ -64,7 +64,7 @@ void add_bump(inout Point point) {
     Bump bump = bump_at(place, place_dx, place_dy);
     vec3 n = v_normal - bump.slopes.x * v_tangent.xyz - bump.slopes.y * bitangent;
     point.n = unit_normal(point.behind ? -n : n);
-    point.variance = bump.variance;
+    point.added_alpha2 = added_alpha2(bump.variance);
 #endif
 }
 #endif
@@ -77,7 +77,7 @@ Point point_seen() {
     if (point.behind) point.smooth_normal = -point.smooth_normal;
     point.n = point.smooth_normal;
     point.texture_coordinate = v_texture_coordinate;
-    point.variance = 0.0;
+    point.added_alpha2 = 0.0;
     point.luminance = 1.0;
 #ifdef HAS_BUMP
     add_bump(point);
@@ -85,18 +85,18 @@ Point point_seen() {
     return point;
 }
 
-// What a mirror and a lobe show of direction r, where bumps too fine to be seen make both rougher.
-vec3 mirrored_layer(vec3 r, float variance) {
+// What a mirror and a lobe show of direction r, where bumps too fine to be seen add to alpha^2.
+vec3 mirrored_layer(vec3 r, float added) {
 #ifdef HAS_ROUGH_MAP
-    return rough_light(r, sqrt(min(1.0, 2.0 * variance)));
+    return rough_light(r, sqrt(min(1.0, added)));
 #else
     return mirrored_light(r);
 #endif
 }
 
-vec3 glossy_layer(vec3 r, float variance) {
+vec3 glossy_layer(vec3 r, float added) {
 #ifdef HAS_ROUGH_MAP
-    float alpha2 = u_roughness * u_roughness * u_roughness * u_roughness, added = 2.0 * variance;
+    float alpha2 = u_roughness * u_roughness * u_roughness * u_roughness;
     vec3 rougher = rough_light(r, sqrt(min(1.0, alpha2 + added)));
     // The exact lobe goes over into the chain's while the two are still much the same.
     return mix(glossy_light(r), rougher, clamp(10.0 * added / max(alpha2, 1e-10), 0.0, 1.0));
@@ -121,13 +121,15 @@ void main() {
     base_color *= texture(u_base_color_map, point.texture_coordinate).rgb;
 #endif
     Weights weights = layer_weights(cosine);
+    // A slope across the plane of v and n turns r by its cosine's share of what one in it does.
+    float added = point.added_alpha2 * 0.5 * (1.0 + cosine * cosine);
 
     vec3 layer = vec3(0.0), radiance = vec3(0.0);
 #ifdef HAS_MIRROR
-    layer += u_mirror * mirrored_layer(seen_from_capture(v_position, r), point.variance);
+    layer += u_mirror * mirrored_layer(seen_from_capture(v_position, r), added);
 #endif
 #ifdef HAS_GLOSSY
-    layer += u_glossy * glossy_layer(seen_from_capture(v_position, r), point.variance);
+    layer += u_glossy * glossy_layer(seen_from_capture(v_position, r), added);
 #endif
 #ifdef HAS_HORIZON
     layer *= above_horizon(r, point.smooth_normal);
@@ -150,7 +152,7 @@ void main() {
 #ifdef HAS_LIGHT_MAP
     radiance += light_map_light(r, base_color) * point.luminance;
 #elif defined(LIGHT_COUNT)
-    Lit lit = light_of_lights(v_position, n, v, weights, point.variance);
+    Lit lit = light_of_lights(v_position, n, v, weights, point.added_alpha2);
     radiance += lit.base * base_color + lit.layer;
 #endif
 #ifdef DISPLAY

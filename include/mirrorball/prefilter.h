@@ -78,6 +78,29 @@ class PrefilterPlan {
     std::shared_ptr<const Plan> plan_;
 };
 
+/// One source made ready for any lobe, one at a time: what a slider asks for. What does not depend
+/// on the lobe (harmonics, bright texels, what sums over lobes are divided by) is found when a lobe
+/// first needs it, and kept: about 30 MB for a panorama of 1024 texels' width, and 30 bytes a texel
+/// for lobes next to a delta. docs/performance.md has times.
+class LobeFilter {
+  public:
+    /// Of level 0 of the source. \throws Error(Errc::usage) for a size or tolerance out of range,
+    /// or if it holds a value that is not finite
+    explicit LobeFilter(std::shared_ptr<const EnvironmentMap> source,
+                        const PrefilterOptions& options = {});
+    ~LobeFilter();
+
+    /// Like PrefilterPlan, to its tolerance, not bit by bit. The bits depend on the source, the
+    /// options and the target: not on threads, nor on what was asked for before.
+    [[nodiscard]] EnvironmentMap operator()(const PrefilterTarget& target);
+
+    [[nodiscard]] const EnvironmentMap& source() const;
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
 /// Plan and run for one source.
 [[nodiscard]] std::vector<EnvironmentMap> prefilter(const EnvironmentMap& source,
                                                     std::span<const PrefilterTarget> targets,

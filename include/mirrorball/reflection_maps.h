@@ -6,6 +6,7 @@
 
 #include <mirrorball/environment_map.h>
 #include <mirrorball/lobe.h>
+#include <mirrorball/prefilter.h>
 #include <mirrorball/progress.h>
 #include <mirrorball/projection.h>
 #include <mirrorball/scene.h>
@@ -38,6 +39,18 @@ struct ReflectionMapOptions {
                                                   std::span<const Lobe> lobes,
                                                   Projection projection, int size, const Axes& axes,
                                                   const ReflectionMapOptions& options = {});
+
+/// The same maps one by one, for those who make them when a scene first asks for one: as resample()
+/// and PrefilterPlan or LobeFilter make them. Of `rough` one for each level.
+[[nodiscard]] EnvironmentMap make_mirror_map(const EnvironmentMap& environment,
+                                             Projection projection, int size, const Axes& axes);
+[[nodiscard]] PrefilterTarget glossy_target(const EnvironmentMap& environment, const Lobe& lobe,
+                                            Projection projection, const Axes& axes);
+[[nodiscard]] PrefilterTarget diffuse_target(Projection projection, const Axes& axes);
+[[nodiscard]] std::vector<PrefilterTarget> rough_targets(const EnvironmentMap& environment,
+                                                         Projection projection, const Axes& axes);
+/// Puts those together. \pre one for each of rough_targets()
+[[nodiscard]] EnvironmentMap levels_of(std::span<EnvironmentMap> maps);
 
 /// The size of a map so fine that bilinear lookup hardly differs from the lobe's own blur: about 16
 /// texels of a cube's face centre to a radian over the lobe's width, which is from the angle that

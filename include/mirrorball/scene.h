@@ -50,10 +50,13 @@ enum class BumpForm {
 
 /// What becomes of bumps that are too fine for a pixel.
 enum class BumpFilter {
-    none,      ///< nothing: one point of the finest level, of the bump and of what it reflects;
-               ///< sparkles
-    mean,      ///< they cancel out, and the surface gets smoother than it is: plain mip levels
-    variance,  ///< they make it rougher: alpha'^2 = alpha^2 + 2 variance, see bump.h
+    none,  ///< nothing: one point of the finest level, of the bump and of what it reflects;
+           ///< sparkles
+    mean,  ///< they cancel out, and the surface gets smoother than it is: plain mip levels
+    /// They make it rougher: alpha'^2 = alpha^2 + ln 2 variance (1 + (n.v)^2), of GGX, whose lobe
+    /// then has the median of that of so many normally distributed slopes; of mirrors and of any
+    /// glossy lobe. docs/bump.md has its error.
+    variance,
 };
 /// "none", "mean", "variance"
 [[nodiscard]] std::string_view name(BumpFilter filter);

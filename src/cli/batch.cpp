@@ -1,18 +1,16 @@
 #include "batch.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <mirrorball/error.h>
 
 #include "command.h"
 #include "options.h"
+#include "result_folder.h"
 
 namespace mirrorball::cli {
 namespace {
@@ -80,51 +78,6 @@ void check_names(const std::vector<Job>& jobs) {
     }
 }
 
-// "out/" -> "out"
-fs::path without_slash(const std::string& folder) {
-    const fs::path path(folder);
-    return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
-}
-
-void check_folder(const std::string& folder) {
-    const fs::path path = without_slash(folder);
-    std::error_code ignored;
-    const bool there = fs::exists(path, ignored);
-    if (there && !fs::is_directory(path, ignored)) {
-        throw Error(Errc::cannot_write,
-                    fmt::format("{}: is a file; expected a folder for the results", path.string()));
-    }
-    const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    const fs::path& changed = there ? path : parent;
-    if (access(changed.c_str(), W_OK | X_OK) != 0) {
-        throw Error(Errc::cannot_write,
-                    fmt::format("{}: {}", changed.string(), std::strerror(errno)));
-    }
-}
-
-// The folder of the results; one that was made for them and got none is removed again.
-class ResultFolder {
-  public:
-    explicit ResultFolder(const std::string& folder) : path_(without_slash(folder)) {
-        if (path_.empty()) return;
-        std::error_code error;
-        made_ = fs::create_directory(path_, error);
-        if (error) {
-            throw Error(Errc::cannot_write, fmt::format("{}: {}", path_.string(), error.message()));
-        }
-    }
-    ~ResultFolder() {
-        std::error_code ignored;
-        if (made_) fs::remove(path_, ignored);  // which leaves a folder that holds anything
-    }
-    ResultFolder(const ResultFolder&) = delete;
-    ResultFolder& operator=(const ResultFolder&) = delete;
-
-  private:
-    fs::path path_;
-    bool made_ = false;
-};
-
 }  // namespace
 
 bool names_folder(const std::string& output) {
@@ -140,7 +93,7 @@ Batch batch_into(const std::string& folder, const std::vector<std::string>& inpu
             {input, (without_slash(folder) / (result_name(input) + ending)).string()});
     }
     check_names(batch.jobs);
-    check_folder(folder);
+    check_result_folder(folder);
     return batch;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bump/levels.h"
+#include "same_assets.h"
 
 namespace mirrorball::gl {
 namespace {
@@ -55,6 +56,13 @@ Texture make(const BumpTexels& texels, Wrap wrap) {
 }
 
 }  // namespace
+
+void BumpTextures::set_assets(std::shared_ptr<const SceneAssets> assets) {
+    std::erase_if(kept_, [&](const auto& kept) {
+        return !is_same(assets_->bumps, assets->bumps, kept.first);
+    });
+    assets_ = std::move(assets);
+}
 
 const Texture& BumpTextures::get(const BumpMap& bump, double time) {
     const double moment = moves(bump) ? time : 0;

@@ -17,6 +17,9 @@ class BumpTextures {
   public:
     explicit BumpTextures(std::shared_ptr<const SceneAssets> assets) : assets_(std::move(assets)) {}
 
+    /// Textures of bump maps that are the same stay.
+    void set_assets(std::shared_ptr<const SceneAssets> assets);
+
     /// du, dv, their variance over all directions, the height from 0 to 1, in all levels. Of what
     /// moves only the last moment asked for is kept.
     const Texture& get(const BumpMap& bump, double time);

@@ -4,6 +4,8 @@
 
 #include <mirrorball/dfg.h>
 
+#include "same_assets.h"
+
 namespace mirrorball::gl {
 namespace {
 
@@ -11,6 +13,13 @@ constexpr int kFresnelSampleCount = 512;
 constexpr int kDfgSize = 128;
 
 }  // namespace
+
+void MaterialTextures::set_assets(std::shared_ptr<const SceneAssets> assets) {
+    std::erase_if(pictures_, [&](const auto& picture) {
+        return !is_same(assets_->pictures, assets->pictures, picture.first);
+    });
+    assets_ = std::move(assets);
+}
 
 const Texture& MaterialTextures::picture(const std::string& name) {
     const auto found = pictures_.find(name);

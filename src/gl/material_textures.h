@@ -18,6 +18,9 @@ class MaterialTextures {
     explicit MaterialTextures(std::shared_ptr<const SceneAssets> assets)
         : assets_(std::move(assets)) {}
 
+    /// Textures of pictures that are the same stay.
+    void set_assets(std::shared_ptr<const SceneAssets> assets);
+
     /// One of the assets' pictures; it repeats.
     const Texture& picture(const std::string& name);
     /// Section 6's 1-D texture: by the cosine, samples at its ends.

@@ -12,6 +12,7 @@
 #include <mirrorball/resample.h>
 
 #include "paraboloid_matrix.h"
+#include "same_assets.h"
 
 namespace mirrorball::gl {
 namespace {
@@ -289,6 +290,19 @@ double Painter::exposure_for(const Scene& scene) {
     return exposure_of(scene, usual_exposure_.value_or(1));
 }
 
+void Painter::set_assets(std::shared_ptr<const SceneAssets> assets) {
+    std::erase_if(buffers_, [&](const auto& buffers) {
+        return !is_same(assets_->meshes, assets->meshes, buffers.first);
+    });
+    if (!is_same(assets_->environment, assets->environment)) {
+        background_.reset();
+        usual_exposure_.reset();
+    }
+    textures_.set_assets(assets);
+    bumps_.set_assets(assets);
+    assets_ = std::move(assets);
+}
+
 const MeshBuffers& Painter::buffers_of(const SceneObject& object) {
     const auto found = buffers_.find(object.mesh);
     if (found != buffers_.end()) return found->second;
@@ -441,9 +455,10 @@ void Painter::draw_object(const Scene& scene, const SceneObject& object, const L
     program.set("u_handedness", handedness(to_world));
     set_to_clip(program, shot);
     program.set("u_eye", shot.views[0].eye);
+    // What is made when it is first asked for takes the first unit for that, so maps come last.
     set_material(program, object.material);
-    set_maps(program, object.material, maps);
     if (has_bump(object.material, maps)) set_bump(program, object.material.bump, scene.time);
+    set_maps(program, object.material, maps);
     if (has_light_map) {
         light_map_->texture().bind(kLightMapUnit);
         program.set("u_light_map", kLightMapUnit);

@@ -54,6 +54,9 @@ class Painter {
           textures_(assets),
           bumps_(std::move(assets)) {}
 
+    /// What was made of meshes, pictures and bump maps that are the same stays.
+    void set_assets(std::shared_ptr<const SceneAssets> assets);
+
     /// Clears and sets what OpenGL is to do; the viewport is the caller's business.
     void begin();
     void object(const Scene& scene, const SceneObject& object, const LookupMaps& maps,

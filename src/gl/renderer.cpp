@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <list>
 #include <optional>
 
 #include <fmt/format.h>
@@ -14,6 +16,7 @@
 #include "check.h"
 #include "dynamic_maps.h"
 #include "painter.h"
+#include "same_assets.h"
 #include "scene_maps.h"
 #include "target.h"
 #include "view.h"
@@ -22,6 +25,8 @@ namespace mirrorball::gl {
 namespace {
 
 constexpr int kMostLights = 16;
+// Of maps by several methods, beyond which those that are not drawn with go.
+constexpr std::uint64_t kMostMapBytes = 256 << 20;
 
 void check_range(const char* what, int value, int least, int most) {
     if (value >= least && value <= most) return;
@@ -85,6 +90,7 @@ class Renderer::Impl {
         : assets_(assets),
           painter_(std::move(assets)) {}
 
+    void set_assets(std::shared_ptr<const SceneAssets> assets);
     Image picture(const Scene& scene, const PictureOptions& options);
     /// Makes the scene's maps, then one picture.
     void draw(const Scene& scene, int width, int height, const Imath::V2d& shift = {0, 0});
@@ -95,49 +101,77 @@ class Renderer::Impl {
     const std::vector<FaceUpdate>& updates() const { return dynamic_.updates(); }
 
   private:
-    // What maps are made for: when none of it changes, they are as they were.
+    // What maps are made for, besides lobes: when none of it changes, they are as they were.
     struct MapsKey {
         Method method;
         int size;
-        std::vector<Lobe> lobes;
         bool rough;
         bool operator==(const MapsKey&) const = default;
     };
     struct KeptMaps {
-        std::optional<MapsKey> key;
-        std::optional<SceneMaps> maps;
+        MapsKey key;
+        SceneMaps maps;
     };
 
-    SceneMaps& maps_for(const Scene& scene, Method method, KeptMaps& kept);
+    SceneMaps& maps_for(const Scene& scene, Method method);
+    void forget_maps();
     void make_maps(const Scene& scene);
     void draw_scene(const Scene& scene, const Shot& shot);
 
     std::shared_ptr<const SceneAssets> assets_;
     Painter painter_;
-    ProgramCache programs_;  // of surfaces()
-    KeptMaps maps_;          // of the scene's method
-    KeptMaps cubes_;         // what is seen in maps is drawn with
+    ProgramCache programs_;               // of surfaces()
+    std::shared_ptr<LobeFilter> filter_;  // of the environment, once maps are made of it
+    std::list<KeptMaps> kept_;            // the last used first
+    SceneMaps* maps_ = nullptr;           // of the scene's method; one of those
     DynamicMaps dynamic_;
     std::optional<Target> target_;
 };
 
-SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method, KeptMaps& kept) {
-    MapsKey key{method, map_size(scene, *assets_), lobes_of(scene), gets_rougher(scene)};
-    if (kept.key != key) {
-        kept.key.reset();
-        kept.maps.emplace(assets_->environment, key.method, key.size, key.lobes, key.rough);
-        kept.key = std::move(key);
+void Renderer::Impl::set_assets(std::shared_ptr<const SceneAssets> assets) {
+    if (!is_same(assets_->environment, assets->environment)) {
+        maps_ = nullptr;
+        kept_.clear();
+        filter_.reset();
     }
-    return *kept.maps;
+    painter_.set_assets(assets);
+    assets_ = std::move(assets);
+}
+
+SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method) {
+    const MapsKey key{method, map_size(scene, *assets_), gets_rougher(scene)};
+    const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                    [&](const KeptMaps& kept) { return kept.key == key; });
+    if (found != kept_.end()) {
+        kept_.splice(kept_.begin(), kept_, found);
+    } else {
+        forget_maps();
+        if (!filter_) {
+            filter_ = std::make_shared<LobeFilter>(
+                std::shared_ptr<const EnvironmentMap>(assets_, &assets_->environment));
+        }
+        kept_.push_front({key, SceneMaps(filter_, key.method, key.size, key.rough)});
+    }
+    kept_.front().maps.set_lobes(lobes_of(scene));
+    return kept_.front().maps;
+}
+
+// All but the last used, if they are many: a scene may come back to their method.
+void Renderer::Impl::forget_maps() {
+    std::uint64_t bytes = 0;
+    for (const KeptMaps& kept : kept_) bytes += kept.maps.kept_bytes();
+    while (kept_.size() > 1 && bytes > kMostMapBytes) {
+        bytes -= kept_.back().maps.kept_bytes();
+        kept_.pop_back();
+    }
 }
 
 void Renderer::Impl::make_maps(const Scene& scene) {
     check_scene(scene);
-    maps_for(scene, scene.method, maps_).look_from(axes(scene.camera));
+    maps_ = &maps_for(scene, scene.method);
+    maps_->look_from(axes(scene.camera));
     if (!has_dynamic_objects(scene)) return;
-    const bool are_cubes = scene.method == Method::cube;
-    dynamic_.update(scene, painter_,
-                    are_cubes ? *maps_.maps : maps_for(scene, Method::cube, cubes_));
+    dynamic_.update(scene, painter_, maps_for(scene, Method::cube));
 }
 
 // With the maps that there are.
@@ -147,7 +181,7 @@ void Renderer::Impl::draw_scene(const Scene& scene, const Shot& shot) {
         const SceneObject& object = scene.objects[i];
         std::optional<LookupMaps> maps;
         if (object.dynamic) maps = dynamic_.lookup(i);
-        if (!maps) maps = maps_.maps->lookup(object.material, scene.environment);
+        if (!maps) maps = maps_->lookup(object.material, scene.environment);
         painter_.object(scene, object, *maps, shot);
     }
     painter_.background(scene, shot, !scene.environment.background);
@@ -224,7 +258,7 @@ std::vector<double> Renderer::Impl::time_frames(const Scene& scene, int width, i
 
 std::uint64_t Renderer::Impl::map_bytes(const Scene& scene) {
     make_maps(scene);
-    return maps_.maps->bytes() + (has_dynamic_objects(scene) ? dynamic_.bytes() : 0);
+    return maps_->bytes() + (has_dynamic_objects(scene) ? dynamic_.bytes() : 0);
 }
 
 SurfaceBuffer Renderer::Impl::surfaces(const Scene& scene, int width, int height,
@@ -272,6 +306,10 @@ Renderer::Renderer(std::shared_ptr<const SceneAssets> assets)
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+void Renderer::set_assets(std::shared_ptr<const SceneAssets> assets) {
+    impl_->set_assets(std::move(assets));
+}
 
 Image Renderer::picture(const Scene& scene, const PictureOptions& options) {
     constexpr int kLargestSide = 1 << 16, kMostSamples = 1024;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <mirrorball/reflection_maps.h>
 
 namespace mirrorball::gl {
 namespace {
@@ -34,39 +37,95 @@ bool finds_pixels(Method method) {
     }
 }
 
-MapTextures upload_all(const ReflectionMaps& maps, Method method) {
-    const auto take = [&](const EnvironmentMap& map) {
-        return method == Method::cube_seams ? upload_face_array(map) : upload(map);
-    };
-    MapTextures textures;
-    textures.mirror = take(maps.mirror);
-    textures.diffuse = take(maps.diffuse);
-    if (maps.rough.level_count() > 0) textures.rough = take(maps.rough);
-    for (const EnvironmentMap& map : maps.glossy) textures.glossy.push_back(take(map));
-    if (method == Method::cube_split) {
-        textures.mirror_faces = upload_faces(maps.mirror);
-        for (const EnvironmentMap& map : maps.glossy)
-            textures.glossy_faces.push_back(upload_faces(map));
-    }
-    return textures;
+constexpr std::uint64_t kMostUnusedBytes = 64 << 20;
+
+Texture uploaded(const EnvironmentMap& map, Method method) {
+    return method == Method::cube_seams ? upload_face_array(map) : upload(map);
 }
 
 }  // namespace
 
-SceneMaps::SceneMaps(const EnvironmentMap& environment, Method method, int size,
-                     std::span<const Lobe> lobes, bool rough)
-    : method_(method),
+SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough)
+    : filter_(std::move(filter)),
+      method_(method),
+      projection_(is_warped(method) ? Projection::cube : projection_of(method)),
       size_(size),
-      lobes_(lobes.begin(), lobes.end()) {
-    const Projection projection = is_warped(method) ? Projection::cube : projection_of(method);
-    axes_ = default_axes(projection);
-    const int map_size = size_as_fine(environment, projection, size);
+      axes_(default_axes(projection_)) {
+    const EnvironmentMap& environment = filter_->source();
+    const int map_size = size_as_fine(environment, projection_, size);
     // Before it takes time and memory.
-    check_texture_size(target_for(projection), map_size, 1);
-    const ReflectionMapOptions options{.rough = rough && finds_pixels(method)};
-    maps_ = upload_all(
-        make_reflection_maps(environment, lobes, projection, map_size, axes_, options), method);
+    check_texture_size(target_for(projection_), map_size, 1);
+    const EnvironmentMap mirror = make_mirror_map(environment, projection_, map_size, axes_);
+    maps_.mirror = uploaded(mirror, method);
+    if (method == Method::cube_split) maps_.mirror_faces = upload_faces(mirror);
+    maps_.diffuse = uploaded((*filter_)(diffuse_target(projection_, axes_)), method);
+    if (rough && finds_pixels(method)) make_rough();
     if (is_warped(method)) warped_.emplace(method, maps_);
+}
+
+void SceneMaps::make_rough() {
+    std::vector<EnvironmentMap> levels;
+    for (const PrefilterTarget& target : rough_targets(filter_->source(), projection_, axes_))
+        levels.push_back((*filter_)(target));
+    maps_.rough = uploaded(levels_of(levels), method_);
+}
+
+void SceneMaps::make_glossy(const Lobe& lobe) {
+    const EnvironmentMap map =
+        (*filter_)(glossy_target(filter_->source(), lobe, projection_, axes_));
+    Texture texture = uploaded(map, method_);
+    if (method_ == Method::cube_split) maps_.glossy_faces.push_back(upload_faces(map));
+    maps_.glossy.push_back(std::move(texture));
+    lobes_.push_back({lobe, 0});
+}
+
+void SceneMaps::set_lobes(std::span<const Lobe> lobes) {
+    ++turn_;
+    bool changed = false;
+    for (const Lobe& lobe : lobes) {
+        const std::size_t i = index_of(lobe);
+        if (i == lobes_.size()) {
+            make_glossy(lobe);
+            changed = true;
+        }
+        lobes_[i].used = turn_;
+    }
+    changed = forget_unused() || changed;
+    if (!warped_ || !changed) return;
+    warped_.emplace(method_, maps_);
+    made_for_.reset();
+}
+
+// The least recently used first. All of those that are warped: they would be for each camera.
+bool SceneMaps::forget_unused() {
+    const std::uint64_t most = warped_ ? 0 : kMostUnusedBytes;
+    bool forgot = false;
+    while (unused_bytes() > most) {
+        const auto oldest =
+            std::min_element(lobes_.begin(), lobes_.end(),
+                             [](const Kept& a, const Kept& b) { return a.used < b.used; });
+        const std::ptrdiff_t place = oldest - lobes_.begin();
+        lobes_.erase(oldest);
+        maps_.glossy.erase(maps_.glossy.begin() + place);
+        if (!maps_.glossy_faces.empty())
+            maps_.glossy_faces.erase(maps_.glossy_faces.begin() + place);
+        forgot = true;
+    }
+    return forgot;
+}
+
+std::uint64_t SceneMaps::unused_bytes() const {
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < lobes_.size(); ++i)
+        bytes += lobes_[i].used < turn_ ? maps_.glossy[i].bytes() : 0;
+    return bytes;
+}
+
+// Behind the last if it is not there.
+std::size_t SceneMaps::index_of(const Lobe& lobe) const {
+    const auto found = std::find_if(lobes_.begin(), lobes_.end(),
+                                    [&](const Kept& kept) { return kept.lobe == lobe; });
+    return static_cast<std::size_t>(found - lobes_.begin());
 }
 
 void SceneMaps::look_from(const Axes& camera) {
@@ -77,12 +136,11 @@ void SceneMaps::look_from(const Axes& camera) {
 }
 
 LookupMaps SceneMaps::lookup(const Material& material, const SceneEnvironment& environment) const {
-    const auto found = std::find(lobes_.begin(), lobes_.end(), material.lobe);
     return {method_,
             warped_ ? warped_->axes() : axes_,
             &shown(),
             &shown().diffuse,
-            static_cast<std::size_t>(found - lobes_.begin()),
+            index_of(material.lobe),
             mirror_alpha(size_),
             environment.intensity,
             environment.proxy,

@@ -1,11 +1,13 @@
 // SceneMaps: an environment as the textures that a method looks up.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include <mirrorball/reflection_maps.h>
+#include <mirrorball/prefilter.h>
 #include <mirrorball/scene.h>
 
 #include "map_textures.h"
@@ -15,28 +17,51 @@ namespace mirrorball::gl {
 
 class SceneMaps {
   public:
-    /// `size` is the edge of a cube's face; other maps are as fine as such a cube. Maps of
-    /// every roughness are made if they are asked for and the method looks up at each pixel.
-    SceneMaps(const EnvironmentMap& environment, Method method, int size,
-              std::span<const Lobe> lobes, bool rough = false);
+    /// Of the filter's source. `size` is the edge of a cube's face; other maps are as fine as such
+    /// a cube. Maps of every roughness are made if they are asked for and the method looks up at
+    /// each pixel.
+    SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough = false);
+
+    /// Makes maps for the lobes that have none. Those of other lobes stay, up to some memory, for a
+    /// scene may come back to them; a lobe's map is the same whenever it is made.
+    void set_lobes(std::span<const Lobe> lobes);
 
     /// Re-makes maps that depend on where the camera looks.
     void look_from(const Axes& camera);
 
-    /// For a surface with this material in a scene with that environment.
+    /// For a surface with this material in a scene with that environment, if its lobe is set.
     [[nodiscard]] LookupMaps lookup(const Material& material,
                                     const SceneEnvironment& environment) const;
 
-    [[nodiscard]] std::uint64_t bytes() const { return shown().bytes(); }
+    /// Of those that are looked up, with the lobes that are set.
+    [[nodiscard]] std::uint64_t bytes() const { return shown().bytes() - unused_bytes(); }
+    /// Of all.
+    [[nodiscard]] std::uint64_t kept_bytes() const {
+        return maps_.bytes() + (warped_ ? warped_->textures().bytes() : 0);
+    }
 
   private:
     [[nodiscard]] const MapTextures& shown() const { return warped_ ? warped_->textures() : maps_; }
 
+    struct Kept {
+        Lobe lobe;
+        std::uint64_t used;  // the last turn in which it was
+    };
+
+    void make_rough();
+    void make_glossy(const Lobe& lobe);
+    bool forget_unused();
+    [[nodiscard]] std::uint64_t unused_bytes() const;
+    [[nodiscard]] std::size_t index_of(const Lobe& lobe) const;
+
+    std::shared_ptr<LobeFilter> filter_;
     Method method_;
+    Projection projection_;  // of maps_
     int size_;
-    std::vector<Lobe> lobes_;
     Axes axes_;  // of maps_
     MapTextures maps_;
+    std::vector<Kept> lobes_;  // of maps_.glossy
+    std::uint64_t turn_ = 0;
     std::optional<MethodMaps> warped_;  // of maps with rims
     std::optional<Axes> made_for_;      // the camera that those were last made for
 };

@@ -52,27 +52,6 @@ int finest_rough_face(const EnvironmentMap& environment) {
     return std::clamp(wanted, 2 * kRoughestFace, kFinestFace);
 }
 
-// One for each level, the finest first.
-std::vector<PrefilterTarget> rough_targets(const EnvironmentMap& environment, Projection projection,
-                                           const Axes& axes) {
-    std::vector<PrefilterTarget> targets;
-    for (int face = finest_rough_face(environment); face >= kRoughestFace; face /= 2) {
-        const double alpha = static_cast<double>(kRoughestFace) / face;
-        targets.push_back({{Lobe::Kind::ggx, std::sqrt(alpha)},
-                           projection,
-                           face * size_over_cube(projection),
-                           axes});
-    }
-    return targets;
-}
-
-// Takes the maps' only levels.
-EnvironmentMap levels_of(std::span<EnvironmentMap> maps) {
-    EnvironmentMap chain{maps.front().projection, maps.front().axes, {}};
-    for (EnvironmentMap& map : maps) chain.levels.push_back(std::move(map.levels[0]));
-    return chain;
-}
-
 void add_unless_there(std::vector<Lobe>& lobes, const Lobe& lobe) {
     if (std::find(lobes.begin(), lobes.end(), lobe) == lobes.end()) lobes.push_back(lobe);
 }
@@ -98,24 +77,55 @@ int mirror_map_size(const EnvironmentMap& environment, Projection projection) {
            size_over_cube(projection);
 }
 
+EnvironmentMap make_mirror_map(const EnvironmentMap& environment, Projection projection, int size,
+                               const Axes& axes) {
+    EnvironmentMap map = resample(environment, projection, size, axes);
+    append_mip_levels(map);
+    return map;
+}
+
+PrefilterTarget glossy_target(const EnvironmentMap& environment, const Lobe& lobe,
+                              Projection projection, const Axes& axes) {
+    // Finer than the environment there is nothing to see.
+    const int finest = std::max(kDiffuseFace * size_over_cube(projection),
+                                mirror_map_size(environment, projection));
+    return {lobe, projection, std::min(glossy_map_size(lobe, projection), finest), axes};
+}
+
+PrefilterTarget diffuse_target(Projection projection, const Axes& axes) {
+    return {{Lobe::Kind::diffuse}, projection, kDiffuseFace * size_over_cube(projection), axes};
+}
+
+std::vector<PrefilterTarget> rough_targets(const EnvironmentMap& environment, Projection projection,
+                                           const Axes& axes) {
+    std::vector<PrefilterTarget> targets;
+    for (int face = finest_rough_face(environment); face >= kRoughestFace; face /= 2) {
+        const double alpha = static_cast<double>(kRoughestFace) / face;
+        targets.push_back({{Lobe::Kind::ggx, std::sqrt(alpha)},
+                           projection,
+                           face * size_over_cube(projection),
+                           axes});
+    }
+    return targets;
+}
+
+EnvironmentMap levels_of(std::span<EnvironmentMap> maps) {
+    EnvironmentMap result{maps.front().projection, maps.front().axes, {}};
+    for (EnvironmentMap& map : maps) result.levels.push_back(std::move(map.levels[0]));
+    return result;
+}
+
 ReflectionMaps make_reflection_maps(const EnvironmentMap& environment, std::span<const Lobe> lobes,
                                     Projection projection, int size, const Axes& axes,
                                     const ReflectionMapOptions& options) {
     ReflectionMaps maps;
-    maps.mirror = resample(environment, projection, size, axes);
-    append_mip_levels(maps.mirror);
+    maps.mirror = make_mirror_map(environment, projection, size, axes);
     for (const Lobe& lobe : lobes) add_unless_there(maps.lobes, lobe);
 
-    // Finer than the environment there is nothing to see.
-    const int finest = std::max(kDiffuseFace * size_over_cube(projection),
-                                mirror_map_size(environment, projection));
     std::vector<PrefilterTarget> targets;
-    for (const Lobe& lobe : maps.lobes) {
-        const int wanted = std::min(glossy_map_size(lobe, projection), finest);
-        targets.push_back({lobe, projection, wanted, axes});
-    }
-    targets.push_back(
-        {{Lobe::Kind::diffuse}, projection, kDiffuseFace * size_over_cube(projection), axes});
+    for (const Lobe& lobe : maps.lobes)
+        targets.push_back(glossy_target(environment, lobe, projection, axes));
+    targets.push_back(diffuse_target(projection, axes));
     if (options.rough) {
         const std::vector<PrefilterTarget> levels = rough_targets(environment, projection, axes);
         targets.insert(targets.end(), levels.begin(), levels.end());

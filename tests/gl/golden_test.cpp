@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <mirrorball/io.h>
 
+#include "bumpy_assets.h"
 #include "gl_test.h"
 
 namespace mirrorball::gl {
@@ -55,6 +56,17 @@ std::vector<GoldenPicture> golden_pictures() {
     Material glass = mirror_material();
     glass.transmission = 1, glass.coupling = Coupling::layered;
     glass.fresnel = Fresnel::dielectric(1.5);
+    Material dented = mirror_material();
+    dented.fresnel = Fresnel::conductor("silver");
+    dented.bump.source = "hammered", dented.bump.size = 128, dented.bump.repeat = {4, 2};
+    add("sphere-hammered", "sphere", dented, Method::cube);
+    Material bark = full_material();
+    bark.emission = bark.transmission = bark.mirror = 0;
+    bark.bump.source = "bark", bark.bump.size = 128, bark.bump.repeat = {3, 1};
+    bark.bump.form = BumpForm::classic;
+    bark.bump.luminance_scale = 0.6, bark.bump.luminance_offset = 0.4;
+    add("torus-bark-classic", "torus", bark, Method::sphere).lights = {
+        ScenePointLight{{3, 2, 3}, {20, 18, 15}}};
     add("cube-glass", "cube", glass, Method::dual_paraboloid).objects[0].transform.scale =
         Vec3d(0.7);
     return pictures;
@@ -77,7 +89,10 @@ double rms_difference(const Image& a, const Image& b) {
 class Golden : public GlTest {};
 
 TEST_F(Golden, PicturesAreAsTheyWere) {
-    const auto assets = assets_in(builtin_environment("sunset", 256));
+    std::vector<BumpMap> bumps;
+    for (const GoldenPicture& golden : golden_pictures())
+        bumps.push_back(golden.scene.objects[0].material.bump);
+    const auto assets = bumpy_assets(builtin_environment("sunset", 256), bumps);
     Renderer renderer(assets);
     const bool update = std::getenv("MIRRORBALL_UPDATE_GOLDEN") != nullptr;
     for (const GoldenPicture& golden : golden_pictures()) {

@@ -14,6 +14,7 @@
 
 #include "gl_test.h"
 #include "seen.h"
+#include "truth_maps.h"
 #include "warped_map.h"
 
 namespace mirrorball::gl {
@@ -21,26 +22,6 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
 constexpr double kTolerance = 1.0 / 255;
-
-ReflectionMaps maps_for(const Scene& scene, const EnvironmentMap& environment) {
-    const Projection projection = projection_of(scene.method);
-    const bool has_rim =
-        projection == Projection::sphere || projection == Projection::dual_paraboloid;
-    const Projection source = has_rim ? Projection::cube : projection;
-    const int size = scene.map_size * (source == Projection::cube       ? 1
-                                       : source == Projection::equirect ? 4
-                                                                        : 2);
-    ReflectionMaps maps =
-        make_reflection_maps(environment, lobes_of(scene), source, size, default_axes(source));
-    if (has_rim) {
-        const Axes frame =
-            projection == Projection::sphere ? axes(scene.camera) : default_axes(projection);
-        maps.mirror = warped(maps.mirror, projection, frame);
-        maps.diffuse = warped(maps.diffuse, projection, frame);
-        for (EnvironmentMap& map : maps.glossy) map = warped(map, projection, frame);
-    }
-    return maps;
-}
 
 // Beyond the rims of sphere maps and paraboloids the graphics card has texels with what goes on
 // there, and the processor looks on the map's other side; a cube's faces that are filtered apart

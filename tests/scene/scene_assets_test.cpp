@@ -63,6 +63,87 @@ TEST(SceneAssets, FilesBesideTheScene) {
     EXPECT_EQ(assets.environment.width(), 8);
 }
 
+TEST(SceneAssets, BumpsAreSlopesAndTheirMeshesGetTangents) {
+    const TemporaryFolder folder;
+    write_sky(folder / "sky.hdr");
+    Image heights(4, 2, 1);
+    for (int x = 0; x < 4; ++x) *heights.at(x, 0) = *heights.at(x, 1) = static_cast<float>(x);
+    write_image(folder / "ramp.pfm", heights);
+    Scene scene = small_scene();
+    scene.objects.resize(4);
+    BumpMap& ramp = scene.objects[0].material.bump;
+    ramp.source = "ramp.pfm", ramp.wrap = Wrap::clamp;
+    ramp.height_scale = 0.1, ramp.width = 2;  // texels of half a metre
+    scene.objects[1].material.bump.source = "builtin:bark";
+    scene.objects[1].material.bump.size = 16;
+    scene.objects[2].material.bump.source = "waves";
+    scene.objects[3].mesh = "torus";
+    const SceneAssets assets = load_assets(scene, folder.path(), {.mesh_detail = 2});
+    EXPECT_EQ(assets.bumps.size(), 2u) << "what moves is made when it is asked for";
+    EXPECT_FALSE(assets.meshes.at("sphere").tangents.empty());
+    EXPECT_TRUE(assets.meshes.at("torus").tangents.empty());
+
+    const auto texels = bump_texels(ramp, assets, 0);
+    for (int x = 0; x < 4; ++x) {
+        EXPECT_NEAR(texels->slopes.slopes.at(x, 1)[0], 0.2, 1e-6);
+        EXPECT_NEAR(texels->slopes.slopes.at(x, 1)[1], 0, 1e-6);
+        EXPECT_NEAR(*texels->heights.at(x, 0), x / 3.0, 1e-6);
+    }
+    const BumpMap& bark = scene.objects[1].material.bump;
+    EXPECT_FALSE(moves(bark));
+    EXPECT_EQ(bump_texels(bark, assets, 0), bump_texels(bark, assets, 7));
+    const BumpMap& waves = scene.objects[2].material.bump;
+    EXPECT_TRUE(moves(waves));
+    const auto now = bump_texels(waves, assets, 0), later = bump_texels(waves, assets, 1);
+    EXPECT_FALSE(std::equal(now->heights.values().begin(), now->heights.values().end(),
+                            later->heights.values().begin()));
+}
+
+TEST(SceneAssets, LevelHeightsAreFlat) {
+    const TemporaryFolder folder;
+    write_sky(folder / "sky.hdr");
+    write_image(folder / "level.pfm", Image(3, 5, 1));
+    Scene scene = small_scene();
+    scene.objects.resize(1);
+    BumpMap& bump = scene.objects[0].material.bump;
+    bump.source = "level.pfm";
+    const SceneAssets assets = load_assets(scene, folder.path(), {.mesh_detail = 2});
+    const auto texels = bump_texels(bump, assets, 0);
+    for (const float slope : texels->slopes.slopes.values()) EXPECT_EQ(slope, 0);
+    for (const float height : texels->heights.values()) EXPECT_EQ(height, 1);
+}
+
+TEST(SceneAssets, BumpsThatCannotBeAreRefused) {
+    const TemporaryFolder folder;
+    write_sky(folder / "sky.hdr");
+    write_triangle(folder / "a.obj");
+    write_image(folder / "grey.pfm", Image(4, 4, 1));
+    Scene scene = small_scene();
+    scene.objects.resize(1);
+    scene.objects[0].name = "stone";
+    BumpMap& bump = scene.objects[0].material.bump;
+    const auto expect_refused = [&](const std::string& message, const AssetOptions& options = {}) {
+        const std::string found = refusal(scene, folder.path(), options);
+        EXPECT_NE(found.find("objects[0] \"stone\": "), std::string::npos) << found;
+        EXPECT_NE(found.find(message), std::string::npos) << found;
+    };
+    bump.source = "wave";
+    expect_refused("\"wave\" is no bump source; there are ");
+    bump.source = "missing.png";
+    expect_refused("missing.png");
+    bump.source = "grey.pfm";
+    bump.kind = BumpKind::normal;
+    expect_refused("a picture of 1 channel is no normal map (3 were expected");
+    bump.kind = BumpKind::slopes;
+    expect_refused("a picture of 1 channel is no du/dv map (2 were expected");
+    bump.kind.reset();
+    scene.objects[0].mesh = "a.obj";
+    expect_refused("a bump map needs texture coordinates, and a.obj has none");
+    scene.objects[0].mesh = "sphere";
+    bump.source = "waves", bump.size = 4096;
+    expect_refused("waves: needs ", {.memory_limit = 1 << 20, .mesh_detail = 2});
+}
+
 TEST(SceneAssets, EnvironmentIsTurnedAndNotScaled) {
     const TemporaryFolder folder;
     write_sky(folder / "sky.hdr");

@@ -51,6 +51,17 @@ Scene full_scene() {
     m.fresnel = Fresnel::conductor("gold").coated(1.5);
     m.coupling = Coupling::split_sum;
     m.index = 1.33;
+    m.floor = Floor{-2.5, {0.1, 0.2, 0.3}, "tiles.png", 0.4, {1, 0.5, 0.25}};
+    BumpMap& b = m.bump;
+    b.source = "stones.png", b.kind = BumpKind::slopes, b.green = Green::down,
+    b.wrap = Wrap::mirror;
+    b.height_scale = 0.02, b.width = 0.5, b.size = 64;
+    b.repeat = {3, -2}, b.offset = {0.25, 0.5}, b.drift = {-1, 0.125};
+    b.strength = 1.5, b.form = BumpForm::classic, b.filter = BumpFilter::mean;
+    b.relief = 0.125, b.horizon = false;
+    b.matrix = {0, 1, -1, 0.5};
+    b.matrix_turn = kPi / 4;
+    b.luminance_scale = 0.5, b.luminance_offset = 0.25;
     object.dynamic = DynamicReflection{64, 2, 3};
     scene.objects = {object, SceneObject()};
     SceneEnvironment& e = scene.environment;
@@ -61,13 +72,14 @@ Scene full_scene() {
     e.background_color = {0.5, 0.25, 0};
     e.proxy = BoxProxy{{-4, 0, -4}, {4, 3, 4}};
     e.captured_at = {0, 1.5, 0};
-    scene.lights = {ScenePointLight{{1, 1, 1}, {3, 2, 1}},
-                    SceneDirectionalLight{{1, 0, 0}, {0.1, 0.2, 0.3}}, ScenePointLight()};
+    scene.lights = {ScenePointLight{{1, 1, 1}, {3, 2, 1}, kPi / 2},
+                    SceneDirectionalLight{{1, 0, 0}, {0.1, 0.2, 0.3}, -kPi / 6}, ScenePointLight()};
     scene.camera = {{1, 2, 3}, {0, 1, 0}, {0, 0, 1}, 1.1};
     scene.method = Method::dual_paraboloid_vertex;
     scene.map_size = 128;
     scene.exposure = 1.0 / 3;
     scene.tone_map = ToneMap::agx;
+    scene.time = 12.5;
     return scene;
 }
 
@@ -128,6 +140,21 @@ TEST(SceneFile, MaterialsByNameAndLikeAnother) {
 }
 
 // A chain as long as a file can hold is followed without recursion.
+TEST(SceneFile, BumpsAndFloorsTakeOverWhatTheOnesTheyAreLikeHave) {
+    const Scene scene = parsed(R"({"materials": {
+        "sea": {"bump": {"source": "waves", "strength": 2, "repeat": 3},
+                "floor": {"height": -4, "color": 0.2}},
+        "calm sea": {"like": "sea", "bump": {"strength": 0.5}, "floor": {"color": [0, 0, 1]}}},
+        "objects": [{"material": "calm sea"}]})");
+    const Material& m = scene.objects.at(0).material;
+    EXPECT_EQ(m.bump.source, "waves");
+    EXPECT_EQ(m.bump.strength, 0.5);
+    EXPECT_EQ(m.bump.repeat, Imath::V2d(3, 3));
+    ASSERT_TRUE(m.floor);
+    EXPECT_EQ(m.floor->height, -4);
+    EXPECT_EQ(m.floor->color, Vec3d(0, 0, 1));
+}
+
 TEST(SceneFile, PresetsAreThereUnlessTheFileUsesTheirNames) {
     const Scene preset = parse_scene(R"({"objects": [{"material": "gold"}, {"material": {"like":
         "plastic", "diffuse": 0.5}}]})",
@@ -164,6 +191,22 @@ TEST(SceneFile, MistakesAreNamedWithTheirPlace) {
          "s.json:3:15: objects[1].material.mirror: 1.5; expected a number from 0 to 1"},
         {"{\"materials\": {\"lamp\": {\"emission\": -1}}}",
          "materials.lamp.emission: -1; expected a number from 0 to 1000000000000"},
+        {"{\"materials\": {\"a\": {\"bump\": {\"sorce\": \"waves\"}}}}",
+         "materials.a.bump: no key is called \"sorce\" here; did you mean \"source\"?"},
+        {"{\"objects\": [{\"material\": {\"bump\": {\"strength\": 101}}}]}",
+         "objects[0].material.bump.strength: 101; expected a number from -100 to 100"},
+        {"{\"objects\": [{\"material\": {\"bump\": {\"kind\": \"depth\"}}}]}",
+         "\"depth\" is not a kind of bump map; there are: height, normal, dudv"},
+        {"{\"objects\": [{\"material\": {\"bump\": {\"form\": \"modern\"}}}]}",
+         "\"modern\" is not a form of bump mapping; there are: normals, classic"},
+        {"{\"objects\": [{\"material\": {\"bump\": {\"repeat\": [1, 2, 3]}}}]}",
+         "bump.repeat: an array of 3; expected a number or an array of two"},
+        {"{\"objects\": [{\"material\": {\"bump\": {\"matrix\": [1, 0, 0, 1]}}}]}",
+         "bump.matrix: an array of 4; expected two rows of two numbers"},
+        {"{\"objects\": [{\"material\": {\"bump\": {\"matrix\": [[1, 0], [0, true]]}}}]}",
+         "bump.matrix[1][1]: true; expected a number"},
+        {"{\"objects\": [{\"material\": {\"floor\": {\"color_width\": 0}}}]}",
+         "material.floor.color_width: 0; expected a number from "},
         {"{\"camra\": {}}",
          "s.json:1:2: no key is called \"camra\" here; did you mean \"camera\"?"},
         {"{\"camera\": {\"eye\": [1, 2]}}",

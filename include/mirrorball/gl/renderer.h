@@ -46,6 +46,12 @@ class Renderer {
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
+    /// From now on, draws with these. What was made of meshes, pictures, bump maps and environment
+    /// that hold the same values (bump maps: that are shared with the former assets) is kept, and
+    /// programs are: a new environment costs its own maps only. Pictures are those of a new
+    /// renderer, but for dynamic objects that are drawn a few faces at a time.
+    void set_assets(std::shared_ptr<const SceneAssets> assets);
+
     /// Three channels. \throws Error(Errc::usage) for sizes out of range
     [[nodiscard]] Image picture(const Scene& scene, const PictureOptions& options = {});
 

@@ -1,0 +1,79 @@
+// What a renderer keeps from picture to picture must not show.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "gl_test.h"
+
+namespace mirrorball::gl {
+namespace {
+
+class KeptMapsTest : public GlTest {};
+
+Scene glossy_scene(double roughness, Method method = Method::cube) {
+    Material material = full_material();
+    material.lobe = {Lobe::Kind::ggx, roughness};
+    return scene_with("torus", material, method);
+}
+
+Image seen(Renderer& renderer, const Scene& scene) {
+    return radiance(renderer, scene, 48, 32);
+}
+
+bool same_bits(const Image& a, const Image& b) {
+    return std::equal(a.values().begin(), a.values().end(), b.values().begin(), b.values().end());
+}
+
+// A slider goes away and comes back.
+TEST_F(KeptMapsTest, PicturesDoNotDependOnThoseBefore) {
+    const auto assets = assets_in(builtin_environment("sunset"));
+    for (const Method method : {Method::cube, Method::sphere, Method::cube_split}) {
+        Renderer renderer(assets);
+        const Scene scene = glossy_scene(0.4, method);
+        const Image first = seen(renderer, scene);
+        const std::uint64_t bytes = renderer.map_bytes(scene);
+        for (const double roughness : {0.5, 0.31, 0.9})
+            EXPECT_FALSE(same_bits(seen(renderer, glossy_scene(roughness, method)), first));
+        EXPECT_TRUE(same_bits(seen(renderer, scene), first)) << name(method);
+        EXPECT_EQ(renderer.map_bytes(scene), bytes) << name(method);
+        Renderer fresh(assets);
+        EXPECT_TRUE(same_bits(seen(fresh, scene), first)) << name(method);
+    }
+}
+
+TEST_F(KeptMapsTest, NorOnOtherMethods) {
+    const auto assets = assets_in(builtin_environment("sunset"));
+    Renderer renderer(assets);
+    std::vector<Image> first;
+    for (const Method method : all_methods())
+        first.push_back(seen(renderer, glossy_scene(0.4, method)));
+    for (std::size_t i = first.size(); i-- > 0;) {
+        const Scene scene = glossy_scene(0.4, all_methods()[i]);
+        EXPECT_TRUE(same_bits(seen(renderer, scene), first[i])) << name(scene.method);
+    }
+}
+
+TEST_F(KeptMapsTest, NewAssetsAreThoseOfANewRenderer) {
+    const auto assets = assets_in(builtin_environment("sunset"));
+    Renderer renderer(assets);
+    const Scene scene = glossy_scene(0.4);
+    const Image first = seen(renderer, scene);
+
+    auto studio = std::make_shared<SceneAssets>(*assets);
+    studio->environment = builtin_environment("studio");
+    renderer.set_assets(studio);
+    Renderer in_studio(studio);
+    EXPECT_TRUE(same_bits(seen(renderer, scene), seen(in_studio, scene)));
+
+    auto cube = std::make_shared<SceneAssets>(*studio);
+    cube->meshes["torus"] = make_mesh("cube", 4);
+    renderer.set_assets(cube);
+    Renderer with_cube(cube);
+    EXPECT_TRUE(same_bits(seen(renderer, scene), seen(with_cube, scene)));
+
+    renderer.set_assets(assets);
+    EXPECT_TRUE(same_bits(seen(renderer, scene), first));
+}
+
+}  // namespace
+}  // namespace mirrorball::gl
