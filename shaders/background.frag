@@ -1,6 +1,7 @@
 // The environment behind the objects.
 #include "lookup_cube.glsl"
 #include "held.glsl"
+#include "srgb.glsl"
 #include "tone_map.glsl"
 #include "proxy.glsl"
 
@@ -28,6 +29,8 @@ void main() {
 #endif
 #ifdef DISPLAY
     o_color = vec4(tone_mapped(radiance), 1.0);
+#elif defined(SCREEN)
+    o_color = vec4(srgb(tone_mapped(radiance)), 1.0);
 #elif defined(HALF_FLOATS)
     o_color = vec4(held(radiance), 1.0);
 #else

@@ -1,9 +1,11 @@
-// Pictures of linear light put on the screen: one, two side by side, or how much they differ.
-// SHOW says which: ONE, WIPE or DIFFERENCE; or AVERAGE, which leaves the light linear.
+// Pictures put on the screen: one, two side by side, or how much they differ. SHOW says which: ONE,
+// WIPE or DIFFERENCE; or AVERAGE, which leaves light linear. FIRST_ENCODED and SECOND_ENCODED are
+// defined where that picture is encoded as sRGB already.
 #define ONE 0
 #define WIPE 1
 #define DIFFERENCE 2
 #define AVERAGE 3
+#include "srgb.glsl"
 
 out vec4 o_color;
 
@@ -15,14 +17,25 @@ uniform vec2 u_origin;       // where the picture's lower left corner is
 uniform float u_wipe;        // in pixels from the left
 uniform float u_full_scale;  // the difference that is white
 
-float srgb(float y) {
-    return y <= 0.0031308 ? 12.92 * y : 1.055 * pow(y, 1.0 / 2.4) - 0.055;
+vec3 first(ivec2 pixel) {
+    vec3 y = texelFetch(u_first, pixel, 0).rgb;
+#if defined(FIRST_ENCODED) || SHOW == AVERAGE
+    return y;
+#else
+    return srgb(y);
+#endif
 }
 
-vec3 srgb(vec3 y) {
-    vec3 held = clamp(y, 0.0, 1.0);
-    return vec3(srgb(held.r), srgb(held.g), srgb(held.b));
+#if SHOW == WIPE || SHOW == DIFFERENCE
+vec3 second(ivec2 pixel) {
+    vec3 y = texelFetch(u_second, pixel, 0).rgb;
+#ifdef SECOND_ENCODED
+    return y;
+#else
+    return srgb(y);
+#endif
 }
+#endif
 
 float ramp(float t, float from, float to) {
     return clamp((t - from) / (to - from), 0.0, 1.0);
@@ -37,16 +50,12 @@ vec3 false_color(float t) {
 void main() {
     vec2 place = gl_FragCoord.xy - u_origin;
     ivec2 pixel = ivec2(place);
-    vec3 first = texelFetch(u_first, pixel, 0).rgb;
-#if SHOW == ONE
-    o_color = vec4(srgb(first), 1.0);
-#elif SHOW == WIPE
-    vec3 second = texelFetch(u_second, pixel, 0).rgb;
-    o_color = vec4(srgb(place.x < u_wipe ? first : second), 1.0);
+#if SHOW == WIPE
+    o_color = vec4(place.x < u_wipe ? first(pixel) : second(pixel), 1.0);
 #elif SHOW == DIFFERENCE
-    vec3 apart = abs(srgb(first) - srgb(texelFetch(u_second, pixel, 0).rgb));
+    vec3 apart = abs(first(pixel) - second(pixel));
     o_color = vec4(false_color(max(apart.r, max(apart.g, apart.b)) / u_full_scale), 1.0);
 #else
-    o_color = vec4(first, 1.0);
+    o_color = vec4(first(pixel), 1.0);
 #endif
 }

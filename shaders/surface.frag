@@ -32,6 +32,7 @@ uniform float u_intensity;     // of the environment
 #include "light_map.glsl"
 #include "floor.glsl"
 #include "held.glsl"
+#include "srgb.glsl"
 #include "tone_map.glsl"
 
 // What a point of the surface is like, the normal on the eye's side.
@@ -157,6 +158,8 @@ void main() {
 #endif
 #ifdef DISPLAY
     o_color = vec4(tone_mapped(radiance), 1.0);
+#elif defined(SCREEN)
+    o_color = vec4(srgb(tone_mapped(radiance)), 1.0);
 #elif defined(HALF_FLOATS)
     o_color = vec4(held(radiance), 1.0);
 #else

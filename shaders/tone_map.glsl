@@ -2,8 +2,15 @@
 // Formulas and sources are there and in src/image/tone_map.cpp; the numbers are the same.
 // For GLSL 4.50 and GLSL ES 3.00; whoever includes this says the version and the precision.
 
+// Defined where pictures are tone mapped: TONE_MAP, as below. A choice at run time would cost software
+// that draws without a graphics card all five, for it has no branches.
+#define NO_TONE_MAP 0
+#define REINHARD 1
+#define ACES 2
+#define AGX 3
+#define FILM 4
+
 uniform float u_exposure;
-uniform int u_tone_map;  // in the order of the enumeration ToneMap: none, reinhard, aces, agx, film
 
 vec3 reinhard(vec3 x) {
     return x / (1.0 + x);
@@ -50,11 +57,19 @@ float exposed(float radiance) {
     return x > 0.0 ? min(x, 1e10) : 0.0;
 }
 
+#ifdef TONE_MAP
 vec3 tone_mapped(vec3 radiance) {
     vec3 x = vec3(exposed(radiance.r), exposed(radiance.g), exposed(radiance.b));
-    if (u_tone_map == 0) return min(x, 1.0);
-    if (u_tone_map == 1) return reinhard(x);
-    if (u_tone_map == 2) return aces(x);
-    if (u_tone_map == 3) return agx(x);
+#if TONE_MAP == NO_TONE_MAP
+    return min(x, 1.0);
+#elif TONE_MAP == REINHARD
+    return reinhard(x);
+#elif TONE_MAP == ACES
+    return aces(x);
+#elif TONE_MAP == AGX
+    return agx(x);
+#else
     return film(x);
+#endif
 }
+#endif

@@ -45,7 +45,8 @@ struct Comparison {
 /// What a pixel sees.
 struct Hover {
     std::optional<std::size_t> object;  ///< its place in the scene; none: the background
-    Vec3d position{0}, normal{0};       ///< of the world; the normal is unit, on the eye's side
+    /// Of the world; the normal is unit, on the eye's side, as bumps of the form `normals` have it.
+    Vec3d position{0}, normal{0};
     Vec3d reflected{0, 0, -1};  ///< what the map is asked for; of the background, where one looks
     std::optional<Vec3d> refracted;  ///< of glass, where light gets through
 };

@@ -93,10 +93,28 @@ std::string_view glsl_name(const Proxy& proxy) {
     return "NO_PROXY";
 }
 
+std::string_view glsl_name(ToneMap tone_map) {
+    switch (tone_map) {
+        case ToneMap::none:
+            return "NO_TONE_MAP";
+        case ToneMap::reinhard:
+            return "REINHARD";
+        case ToneMap::aces:
+            return "ACES";
+        case ToneMap::agx:
+            return "AGX";
+        case ToneMap::film:
+            return "FILM";
+    }
+    return {};
+}
+
 std::string_view glsl_name(Output output) {
     switch (output) {
         case Output::display:
             return "DISPLAY";
+        case Output::screen:
+            return "SCREEN";
         case Output::radiance:
             return "RADIANCE";
         case Output::half_floats:
@@ -150,14 +168,21 @@ void add_bump_definitions(Definitions& definitions, const BumpMap& bump, const L
         definitions.emplace_back("HAS_ROUGH_MAP");
 }
 
+void add_output(const Scene& scene, const Shot& shot, Definitions& definitions) {
+    definitions.emplace_back(glsl_name(shot.output));
+    if (shot.output == Output::display || shot.output == Output::screen)
+        definitions.push_back(fmt::format("TONE_MAP {}", glsl_name(scene.tone_map)));
+}
+
 // What a program needs to know when it is compiled, and no more: what differs from object to object
 // only by numbers shares one.
 Definitions definitions_for(const Scene& scene, const Material& material, const LookupMaps& maps,
                             int pass, const Shot& shot) {
-    Definitions definitions = {
-        fmt::format("METHOD {}", glsl_name(maps.method)), fmt::format("PASS {}", pass),
-        fmt::format("COUPLING {}", glsl_name(material.coupling)),
-        fmt::format("PROXY {}", glsl_name(maps.proxy)), std::string(glsl_name(shot.output))};
+    Definitions definitions = {fmt::format("METHOD {}", glsl_name(maps.method)),
+                               fmt::format("PASS {}", pass),
+                               fmt::format("COUPLING {}", glsl_name(material.coupling)),
+                               fmt::format("PROXY {}", glsl_name(maps.proxy))};
+    add_output(scene, shot, definitions);
     if (material.mirror > 0) definitions.emplace_back("HAS_MIRROR");
     if (material.glossy > 0) definitions.emplace_back("HAS_GLOSSY");
     if (material.diffuse > 0) definitions.emplace_back("HAS_DIFFUSE");
@@ -227,6 +252,20 @@ Mesh moved(const Mesh& mesh, const Transform& transform) {
     for (Vec3f& position : result.positions) position = Vec3f(transform.point(Vec3d(position)));
     for (Vec3f& normal : result.normals) normal = Vec3f(transform.normal(Vec3d(normal)));
     return result;
+}
+
+// The level of a cube with such faces whose texels are as large as pixels, if it is one for the
+// whole picture: of a cube's own faces, and where no texel, not the smallest, in a face's corner,
+// is smaller than the largest pixel, in the picture's middle.
+std::optional<float> known_level(int face_size, const Shot& shot) {
+    if (shot.face_size > 0)
+        return std::log2(static_cast<float>(face_size) / static_cast<float>(shot.face_size));
+    if (shot.height == 0) return std::nullopt;
+    const Imath::M33d& ray = shot.views[0].ray;
+    const double pixel = 2 * Vec3d(ray[1][0], ray[1][1], ray[1][2]).length() / shot.height;
+    const double texel = 2.0 / face_size;
+    const bool is_magnified = pixel * pixel <= texel * texel / std::pow(3, 1.5);
+    return is_magnified ? std::optional(0.0f) : std::nullopt;
 }
 
 // One of a layered shot's views for each face, else one for all.
@@ -311,7 +350,6 @@ const MeshBuffers& Painter::buffers_of(const SceneObject& object) {
 
 void Painter::set_display(const Program& program, const Scene& scene) {
     program.set("u_exposure", static_cast<float>(exposure_for(scene)));
-    program.set("u_tone_map", static_cast<int>(scene.tone_map));
 }
 
 void Painter::set_material(const Program& program, const Material& material) {
@@ -475,12 +513,13 @@ void Painter::draw_object(const Scene& scene, const SceneObject& object, const L
 
 void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     const SceneEnvironment& environment = scene.environment;
-    Definitions definitions = {fmt::format("PROXY {}", glsl_name(environment.proxy)),
-                               std::string(glsl_name(shot.output))};
+    Definitions definitions = {fmt::format("PROXY {}", glsl_name(environment.proxy))};
+    add_output(scene, shot, definitions);
     if (plain) definitions.emplace_back("PLAIN");
-    // Texels of a cube's face are those of the environment's own cube, or of one of its levels.
     const bool has_proxy = !std::holds_alternative<std::monostate>(environment.proxy);
-    if (shot.face_size > 0 && !has_proxy) definitions.emplace_back("LEVEL_KNOWN");
+    const Texture& cube = background_for(scene);
+    const std::optional<float> level = has_proxy ? std::nullopt : known_level(cube.width, shot);
+    if (level) definitions.emplace_back("LEVEL_KNOWN");
     if (shot.layered()) definitions.emplace_back("SIX_VIEWS");
     const Program& program = programs_.get("background.vert", "background.frag", definitions,
                                            shot.layered() ? "background.geom" : "");
@@ -490,11 +529,8 @@ void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     program.set("u_background", environment.background_color);
     program.set("u_intensity", static_cast<float>(environment.intensity));
     program.set("u_to_map", to_map_matrix(default_axes(Projection::cube)));
-    const Texture& cube = background_for(scene);
     cube.bind(kMirrorUnit);
-    if (shot.face_size > 0)
-        program.set("u_level",
-                    std::log2(static_cast<float>(cube.width) / static_cast<float>(shot.face_size)));
+    if (level) program.set("u_level", *level);
     program.set("u_mirror_map", kMirrorUnit);
     set_proxy(program, environment.proxy, environment.captured_at);
     set_display(program, scene);

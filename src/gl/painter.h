@@ -22,7 +22,8 @@
 namespace mirrorball::gl {
 
 enum class Output {
-    display,      ///< tone mapped
+    display,      ///< tone mapped, linear light
+    screen,       ///< the same, encoded as sRGB
     radiance,     ///< as it is
     half_floats,  ///< radiance that a half float holds: no NaN, nothing negative or infinite
 };
@@ -35,6 +36,7 @@ struct Shot {
     Output output = Output::display;
     /// The edge in texels if it is of faces of a cube, in the default axes.
     int face_size = 0;
+    int height = 0;  ///< of the picture in pixels, if it is for a screen; else 0
 
     [[nodiscard]] bool layered() const { return views.size() > 1; }
 };

@@ -93,7 +93,7 @@ class Renderer::Impl {
     void set_assets(std::shared_ptr<const SceneAssets> assets);
     Image picture(const Scene& scene, const PictureOptions& options);
     /// Makes the scene's maps, then one picture.
-    void draw(const Scene& scene, int width, int height, const Imath::V2d& shift = {0, 0});
+    void draw(const Scene& scene, int width, int height, const DrawOptions& options = {});
     SurfaceBuffer surfaces(const Scene& scene, int width, int height, const Imath::V2d& shift);
     EnvironmentMap capture(const Scene& scene, const Vec3d& position, int size);
     std::vector<double> time_frames(const Scene& scene, int width, int height, int count);
@@ -188,12 +188,12 @@ void Renderer::Impl::draw_scene(const Scene& scene, const Shot& shot) {
     check("drawing");
 }
 
-void Renderer::Impl::draw(const Scene& scene, int width, int height, const Imath::V2d& shift) {
+void Renderer::Impl::draw(const Scene& scene, int width, int height, const DrawOptions& options) {
     make_maps(scene);
     const View view = view_of(scene.camera, static_cast<double>(width) / height,
-                              {2 * shift.x / width, 2 * shift.y / height});
+                              {2 * options.shift.x / width, 2 * options.shift.y / height});
     glViewport(0, 0, width, height);
-    draw_scene(scene, {{&view, 1}, Output::display});
+    draw_scene(scene, {{&view, 1}, options.encoded ? Output::screen : Output::display, 0, height});
 }
 
 Image Renderer::Impl::picture(const Scene& scene, const PictureOptions& options) {
@@ -207,7 +207,8 @@ Image Renderer::Impl::picture(const Scene& scene, const PictureOptions& options)
         const View view = view_of(scene.camera, static_cast<double>(width) / height,
                                   {2 * shift.x / width, 2 * shift.y / height});
         target_->bind();
-        draw_scene(scene, {{&view, 1}, options.display ? Output::display : Output::radiance});
+        draw_scene(scene,
+                   {{&view, 1}, options.display ? Output::display : Output::radiance, 0, height});
         Image one = target_->read(3);
         if (sum.empty()) {
             sum = std::move(one);
@@ -319,8 +320,8 @@ Image Renderer::picture(const Scene& scene, const PictureOptions& options) {
     return impl_->picture(scene, options);
 }
 
-void Renderer::draw(const Scene& scene, int width, int height, const Imath::V2d& shift) {
-    impl_->draw(scene, width, height, shift);
+void Renderer::draw(const Scene& scene, int width, int height, const DrawOptions& options) {
+    impl_->draw(scene, width, height, options);
 }
 
 SurfaceBuffer Renderer::surfaces(const Scene& scene, int width, int height,

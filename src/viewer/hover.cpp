@@ -5,6 +5,8 @@
 
 #include <mirrorball/direct.h>
 
+#include "scene/bump_lookup.h"
+
 namespace mirrorball {
 namespace {
 
@@ -39,11 +41,37 @@ Hit nearest_hit(const Mesh& mesh, const Ray& ray) {
     return nearest;
 }
 
-Vec3d normal_at(const Mesh& mesh, const Hit& hit) {
-    const auto corner = [&](std::size_t i) {
-        return Vec3d(mesh.normals[mesh.indices[3 * hit.triangle + i]]);
+// What vertices have, between them.
+template <class V>
+V interpolated(const std::vector<V>& values, const Mesh& mesh, const Hit& hit) {
+    const auto corner = [&](std::size_t i) -> const V& {
+        return values[mesh.indices[3 * hit.triangle + i]];
     };
-    return corner(0) * (1 - hit.u - hit.v) + corner(1) * hit.u + corner(2) * hit.v;
+    const auto u = static_cast<float>(hit.u), v = static_cast<float>(hit.v);
+    return corner(0) * (1 - u - v) + corner(1) * u + corner(2) * v;
+}
+
+// The world's normal where bumps have turned it, as shaders/bump.glsl and direct.cpp do.
+Vec3d bumped_normal(const Vec3d& normal, const SceneObject& object, const SceneAssets& assets,
+                    const Hit& hit, const Vec3d& v, double time) {
+    const BumpMap& map = object.material.bump;
+    const Mesh& mesh = assets.meshes.at(object.mesh);
+    if (map.is_smooth() || map.form != BumpForm::normals || mesh.tangents.empty()) return normal;
+    const detail::BumpLookup bump(map, assets, time);
+    const Imath::M44d to_world = matrix(object.transform);
+    const Vec4f stored = interpolated(mesh.tangents, mesh, hit);
+    Vec3d tangent;
+    to_world.multDirMatrix(Vec3d(stored.x, stored.y, stored.z), tangent);
+    if (tangent == Vec3d(0)) return normal;
+    tangent.normalize();
+    const double handedness = std::copysign(1, stored.w) * std::copysign(1, to_world.determinant());
+    const Vec3d bitangent = normal.cross(tangent) * handedness;
+    const Vec2f at = interpolated(mesh.texture_coordinates, mesh, hit);
+    Imath::V2d place = bump.place(Imath::V2d(at.x, at.y));
+    if (map.relief > 0 && normal.dot(v) > 0)
+        place = bump.seen_in_relief(place, {v.dot(tangent), v.dot(bitangent), v.dot(normal)});
+    const Imath::V2d slopes = bump.slopes(place);
+    return (normal - tangent * slopes.x - bitangent * slopes.y).normalized();
 }
 
 // The ray as the object's mesh has it.
@@ -70,7 +98,8 @@ Hover hover_at(const Scene& scene, const SceneAssets& assets, double x, double y
         nearest = hit.distance;
         hover.object = i;
         hover.position = ray.origin + ray.direction * hit.distance;
-        hover.normal = object.transform.normal(normal_at(mesh, hit));
+        const Vec3d smooth = object.transform.normal(Vec3d(interpolated(mesh.normals, mesh, hit)));
+        hover.normal = bumped_normal(smooth, object, assets, hit, -ray.direction, scene.time);
     }
     if (!hover.object) return hover;
 

@@ -1,6 +1,8 @@
 // SmoothPicture: a picture of a scene that gets smoother with each sample.
 #pragma once
 
+#include <optional>
+
 #include <mirrorball/gl/renderer.h>
 #include <mirrorball/scene.h>
 
@@ -10,40 +12,53 @@
 
 namespace mirrorball {
 
-/// What is drawn into: a picture of half floats, and depth if asked for.
+/// What is drawn into: a picture, and depth if asked for.
 class PictureTarget {
   public:
-    PictureTarget(int width, int height, bool with_depth);
+    /// \param format  GL_RGBA8 or GL_RGBA16F
+    PictureTarget(int width, int height, GLenum format, bool with_depth);
 
     void bind() const;
-    [[nodiscard]] const gl::Texture& texture() const { return texture_; }
+    void bind_texture(int unit) const;
 
   private:
-    gl::Texture texture_;
+    int width_, height_;
+    gl::TextureName texture_;
     gl::Framebuffer framebuffer_;
     std::optional<gl::Renderbuffer> depth_;
 };
 
 class SmoothPicture {
   public:
-    SmoothPicture(int width, int height);
+    SmoothPicture(int width, int height)
+        : width_(width),
+          height_(height),
+          rough_(width, height, GL_RGBA8, true) {}
 
-    /// One more sample. The first is of pixels' centres and shown alone; those after it are, of
-    /// `sample_count`, the ones that Renderer::picture() averages.
+    /// One more sample. The first is of pixels' centres and shown alone, in as many bits as screens
+    /// have: it is all that there is while things move. Those after it are, of `sample_count`, the
+    /// ones that Renderer::picture() averages.
     void add(gl::Renderer& renderer, const Scene& scene, int sample_count,
              gl::ProgramCache& programs);
     void start_again() { taken_ = 0; }
     [[nodiscard]] bool is_smooth(int sample_count) const {
         return taken_ > (sample_count > 1 ? sample_count : 0);
     }
-    /// Linear light.
-    [[nodiscard]] const gl::Texture& texture() const {
-        return taken_ > 1 ? mean_.texture() : sample_.texture();
-    }
+
+    /// Is what there is to see encoded as sRGB? Else it is linear light.
+    [[nodiscard]] bool is_encoded() const { return taken_ <= 1; }
+    void bind_texture(int unit) const;
 
   private:
+    // Linear light of the sample that was added last, and of all together.
+    struct Smooth {
+        PictureTarget sample, mean;
+    };
+    void add_to_mean(int sample, gl::ProgramCache& programs);
+
     int width_, height_;
-    PictureTarget sample_, mean_;
+    PictureTarget rough_;
+    std::optional<Smooth> smooth_;
     gl::VertexArray nothing_;
     int taken_ = 0;
 };

@@ -177,7 +177,8 @@ void Viewer::Impl::adopt(const Scene& scene, std::shared_ptr<const SceneAssets> 
     scene_ = scene;
     if (assets != assets_) {
         assets_ = std::move(assets);
-        for (Side& side : sides_) side.renderer.reset();
+        for (Side& side : sides_)
+            if (side.renderer) side.renderer->set_assets(assets_);
     }
     selected_ = std::min(selected_, scene_.objects.empty() ? 0 : scene_.objects.size() - 1);
 }
@@ -240,14 +241,17 @@ void Viewer::Impl::show(int left, int bottom) {
     glViewport(left, bottom, width_, height_);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
-    const Program& program =
-        programs_.get("full.vert", "show.frag", {kShow[static_cast<int>(comparison_.showing)]});
+    const bool two = comparison_.showing != Showing::one;
+    Definitions definitions = {kShow[static_cast<int>(comparison_.showing)]};
+    if (sides_[0].picture->is_encoded()) definitions.emplace_back("FIRST_ENCODED");
+    if (two && sides_[1].picture->is_encoded()) definitions.emplace_back("SECOND_ENCODED");
+    const Program& program = programs_.get("full.vert", "show.frag", definitions);
     program.use();
     program.set("u_origin", Imath::V2f(static_cast<float>(left), static_cast<float>(bottom)));
-    sides_[0].picture->texture().bind(0);
+    sides_[0].picture->bind_texture(0);
     program.set("u_first", 0);
-    if (comparison_.showing != Showing::one) {
-        sides_[1].picture->texture().bind(1);
+    if (two) {
+        sides_[1].picture->bind_texture(1);
         program.set("u_second", 1);
         program.set("u_wipe", static_cast<float>(comparison_.wipe * width_));
         program.set("u_full_scale", static_cast<float>(comparison_.full_scale));
@@ -409,14 +413,20 @@ void Viewer::save_scene(const fs::path& path) const {
         const bool is_inside = !relative.empty() && *relative.begin() != "..";
         return (is_inside ? relative : there).string();
     };
+    const auto set_file = [&](std::string& name, const auto& builtin_list) {
+        const bool is_builtin =
+            std::any_of(builtin_list.begin(), builtin_list.end(),
+                        [&](const auto& builtin) { return builtin.name == name; });
+        if (!name.empty() && !is_builtin) name = from_target(name);
+    };
+    const std::vector<BuiltinMesh> none;
     Scene saved = scene();
     for (SceneObject& object : saved.objects) {
-        const std::vector<BuiltinMesh> meshes = builtin_meshes();
-        if (std::none_of(meshes.begin(), meshes.end(),
-                         [&](const BuiltinMesh& mesh) { return mesh.name == object.mesh; }))
-            object.mesh = from_target(object.mesh);
-        std::string& map = object.material.base_color_map;
-        if (!map.empty()) map = from_target(map);
+        Material& material = object.material;
+        set_file(object.mesh, builtin_meshes());
+        set_file(material.base_color_map, none);
+        set_file(material.bump.source, bump_sources());
+        if (material.floor) set_file(material.floor->color_map, none);
     }
     std::string& source = saved.environment.source;
     if (!source.starts_with("builtin:")) {

@@ -93,7 +93,7 @@ void on_key(GLFWwindow* window, int key, int /*scancode*/, int action, int /*mod
 
 // Letters as the keyboard's layout and Shift make them; those that keys are bound to are ASCII.
 void on_character(GLFWwindow* window, unsigned int code) {
-    if (code > ' ' && code < 127) events_of(window).keys.emplace_back(1, static_cast<char>(code));
+    if (code >= ' ' && code < 127) events_of(window).keys.emplace_back(1, static_cast<char>(code));
 }
 
 void on_drop(GLFWwindow* window, int count, const char** paths) {

@@ -9,6 +9,7 @@
 #include <imgui_stdlib.h>
 
 #include <mirrorball/builtin.h>
+#include <mirrorball/bump.h>
 #include <mirrorball/direct.h>
 #include <mirrorball/material_presets.h>
 #include <mirrorball/mesh.h>
@@ -248,6 +249,58 @@ void material_group(Session& session) {
     end_group();
 }
 
+// Bumps
+// ---------------------------------------------------------------------------------------------
+
+std::vector<Choice> bump_choices(const std::vector<BumpSource>& sources) {
+    std::vector<Choice> choices = {{"smooth", "no bumps"}};
+    for (const BumpSource& source : sources) choices.push_back({source.name, source.description});
+    return choices;
+}
+
+void bump_group(Session& session) {
+    const Scene& shown = session.viewer.scene();
+    if (session.viewer.selected() >= shown.objects.size()) return;
+    if (!begin_group("Bumps", false)) return;
+    BumpMap bump = shown.objects[session.viewer.selected()].material.bump;
+    const std::vector<BumpSource> sources = bump_sources();
+    int index = bump.is_smooth() ? 0 : index_of(sources, bump.source) + 1;
+    if (index == 0 && !bump.is_smooth()) index = -1;
+    bool changed = false;
+    if (choose("Source", bump_choices(sources), index, file_name(bump.source))) {
+        bump.source = index == 0 ? "" : sources[static_cast<std::size_t>(index - 1)].name;
+        changed = true;
+    }
+    if (!bump.is_smooth()) {
+        changed |= slider("Strength", bump.strength, 0, 4);
+        double repeat = bump.repeat.x;
+        if (slider("Repeat", repeat, 0.25, 16, "%.2f", true)) {
+            bump.repeat = Imath::V2d(repeat);
+            changed = true;
+        }
+        static const Choice forms[] = {{"normals", "the normal turns: methods per pixel"},
+                                       {"classic", "places on sphere maps move: sphere methods"}};
+        int form = static_cast<int>(bump.form);
+        changed |= choose("Form", forms, form);
+        bump.form = static_cast<BumpForm>(form);
+        static const Choice filters[] = {{"none", "one point; sparkles"},
+                                         {"mean", "plain mip levels"},
+                                         {"variance", "what is too fine makes it rougher"}};
+        int filter = static_cast<int>(bump.filter);
+        changed |= choose("Filter", filters, filter);
+        bump.filter = static_cast<BumpFilter>(filter);
+        if (bump.form == BumpForm::normals) {
+            changed |= slider("Relief", bump.relief, 0, 0.2, "%.3f");
+            changed |= checkbox("Horizon", bump.horizon);
+        }
+    }
+    if (changed) {
+        session.edit(
+            [&](Scene& scene) { scene.objects[session.viewer.selected()].material.bump = bump; });
+    }
+    end_group();
+}
+
 // Objects, lights, camera, files
 // ---------------------------------------------------------------------------------------------
 
@@ -340,11 +393,12 @@ void lights_group(Session& session) {
 }
 
 void camera_group(Session& session) {
-    if (!begin_group("Camera", false)) return;
+    if (!begin_group("Camera and time", false)) return;
     double field_of_view = session.viewer.scene().camera.field_of_view;
     if (degrees("Field of view", field_of_view, 5, 120))
         session.edit([&](Scene& scene) { scene.camera.field_of_view = field_of_view; });
     if (ImGui::Button("Show all")) session.viewer.frame_all(session.aspect());
+    checkbox("Time runs", session.time_runs);
     end_group();
 }
 
@@ -377,6 +431,7 @@ void draw_panel(Session& session, const Area& area) {
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     object_group(session);
     material_group(session);
+    bump_group(session);
     environment_group(session);
     method_group(session);
     lights_group(session);

@@ -8,6 +8,7 @@ namespace mirrorball::window {
 
 std::vector<KeyHelp> window_keys() {
     return {{"Tab", "controls and maps"},
+            {"Space", "time runs or stands: of bumps and lights that move"},
             {"P", "take a picture of what is shown, as PNG"},
             {"H F1", "these keys"},
             {"Q Esc", "end"}};
@@ -44,6 +45,8 @@ void Session::press(const std::string& key) {
         panel_open = !panel_open;
     } else if (key == "h" || key == "F1") {
         help_open = !help_open;
+    } else if (key == " ") {
+        time_runs = !time_runs;
     } else if (key == "p") {
         screenshot_asked = true;
     } else if (key == "Escape" && help_open) {

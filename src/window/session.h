@@ -26,6 +26,7 @@ struct Session {
 
     Viewer& viewer;
     bool panel_open = true, help_open = false, quit = false;
+    bool time_runs = false;  ///< for what moves: bumps and lights
     bool screenshot_asked = false;
     bool holds_wipe = false;  ///< the mouse, the line between two methods
     std::optional<Message> message;

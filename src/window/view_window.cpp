@@ -124,7 +124,8 @@ bool ViewWindow::is_done(int frame) const {
 
 // Only while there is nothing to draw.
 void ViewWindow::wait() {
-    const bool busy = is_scripted() || lively_frames_ > 0 || !viewer_.is_smooth();
+    const bool busy =
+        is_scripted() || lively_frames_ > 0 || session_.time_runs || !viewer_.is_smooth();
     lively_frames_ = std::max(0, lively_frames_ - 1);
     if (busy) return desktop_.wait(0);
     const Clock::time_point start = Clock::now();
@@ -249,7 +250,10 @@ Report ViewWindow::run() {
             throw Error(Errc::cancelled, "the window was closed by a signal");
         wait();
         const Clock::time_point start = Clock::now();
-        session_.clock = std::chrono::duration<double>(start - begin).count();
+        const double now = std::chrono::duration<double>(start - begin).count();
+        if (session_.time_runs)
+            session_.edit([&](Scene& scene) { scene.time += now - session_.clock; });
+        session_.clock = now;
         take_events();
         take_step();
         lay_out();

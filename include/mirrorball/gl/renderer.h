@@ -27,6 +27,11 @@ struct PictureOptions {
     Progress progress = {};
 };
 
+struct DrawOptions {
+    Imath::V2d shift{0, 0};  ///< in pixels, of what they show: as sample_shift() has it
+    bool encoded = false;    ///< as sRGB, for a screen; else linear light
+};
+
 /// Which faces of a dynamic object's map were drawn for a picture.
 struct FaceUpdate {
     std::size_t object = 0;  ///< its place in the scene
@@ -55,10 +60,9 @@ class Renderer {
     /// Three channels. \throws Error(Errc::usage) for sizes out of range
     [[nodiscard]] Image picture(const Scene& scene, const PictureOptions& options = {});
 
-    /// One picture, tone mapped linear light, into the framebuffer that is bound, whose size and
-    /// depth buffer the caller cares for. What pixels show is moved by `shift` pixels, as
-    /// sample_shift() has it.
-    void draw(const Scene& scene, int width, int height, const Imath::V2d& shift = {0, 0});
+    /// One picture, tone mapped, into the framebuffer that is bound, whose size and depth buffer
+    /// the caller cares for.
+    void draw(const Scene& scene, int width, int height, const DrawOptions& options = {});
 
     /// What the pixels see, at their centres moved by `shift` pixels. For direct.h.
     [[nodiscard]] SurfaceBuffer surfaces(const Scene& scene, int width, int height,
