@@ -289,8 +289,10 @@ test('broken files are refused in the program’s words and change nothing', asy
     'cut.exr': [exr.subarray(0, exr.length >> 1), /cut\.exr: is no OpenEXR file that can be read/],
     'cut.png': [readFileSync(join(output, 'grid.png')).subarray(0, 300), /cut\.png: .*cannot decode/],
   };
-  run('convert', 'studio.hdr', '-o', 'packed.ktx2', '--compress');
-  expected['packed.ktx2'] = [readFileSync(join(output, 'packed.ktx2')), /Zstandard, which this build cannot read/];
+  // A file whose header says that its levels are packed by Zstandard.
+  const packed = readFileSync(join(output, 'studio.ktx2'));
+  packed.writeUInt32LE(2, 44);
+  expected['packed.ktx2'] = [packed, /packed\.ktx2: is compressed by Zstandard, which this build cannot read/];
   for (const [name, [bytes, words]] of Object.entries(expected)) {
     writeFileSync(join(output, name), bytes);
     await drop(name, bytes);
@@ -369,7 +371,8 @@ test('pointing at a pixel marks where each map is looked up', async () => {
   const box = await (await page.$('#canvas')).boundingBox();
   await page.mouse.move(box.x + box.width / 2 - 1, box.y + box.height / 2);
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await page.waitForFunction(() => !document.querySelector('.mark')?.hidden);
+  await page.waitForFunction(() => document.getElementById('look').textContent.startsWith('looks') &&
+    !document.querySelector('.mark').hidden);
   // Straight ahead, -z, is the middle of the panorama, and of the cross's fourth face.
   const place = async (map) => page.$eval(`[data-map="${map}"] .mark`, (mark) =>
     [Number.parseFloat(mark.style.left), Number.parseFloat(mark.style.top)]);
