@@ -13,7 +13,9 @@ let scheduled = false, drawable = false, map_wish = null, sent_maps = new Map(),
 let full = [1, 1], share = 1, resting = 0;
 const kSlow = 40, kQuick = 20, kLeastShare = 0.2, kRest = 200;  // milliseconds, and of a side
 
-const parsed = (text) => JSON.parse(text);
+// Messages name files as they were dropped.
+const parsed = (text) => JSON.parse(text, (key, value) =>
+  key === 'error' ? value.replaceAll(`${kFolder}/`, '') : value);
 const tell = (message, transfer = []) => self.postMessage(message, transfer);
 
 // Drawing ----------------------------------------------------------------------------------------
@@ -171,7 +173,10 @@ const calls = {
     const first = draw_once();
     tell({ frame: first });
     schedule();
-    return { facts: parsed(module.Page.facts()), warning, error: first.error };
+    const facts = parsed(module.Page.facts());
+    if (gl.getExtension('WEBGL_debug_renderer_info'))
+      facts.renderer = gl.getParameter(0x9246);  // UNMASKED_RENDERER_WEBGL
+    return { facts, warning, error: first.error };
   },
   resize(width, height) {
     if (full[0] === width && full[1] === height) return;

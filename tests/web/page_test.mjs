@@ -373,12 +373,12 @@ test('pointing at a pixel marks where each map is looked up', async () => {
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   await page.waitForFunction(() => document.getElementById('look').textContent.startsWith('looks') &&
     !document.querySelector('.mark').hidden);
-  // Straight ahead, -z, is the middle of the panorama, and of the cross's fourth face.
+  // Straight ahead, -z, is the middle of the panorama, and of the cube's +Z, second in the cross.
   const place = async (map) => page.$eval(`[data-map="${map}"] .mark`, (mark) =>
     [Number.parseFloat(mark.style.left), Number.parseFloat(mark.style.top)]);
   const near = ([x, y], [u, v]) => assert.ok(Math.hypot(x - u, y - v) < 1, `${x}, ${y}`);
   near(await place('equirect'), [50, 50]);
-  near(await place('cube'), [87.5, 50]);
+  near(await place('cube'), [37.5, 50]);
   assert.match(await page.textContent('#look'), /looks \(−?0\.00, −?0\.00, −1\.00\)/);
   const painted = await page.$$eval('figure canvas', (all) => all.map((one) => one.width));
   assert.ok(painted.length === 5 && painted.every((width) => width > 50), String(painted));
