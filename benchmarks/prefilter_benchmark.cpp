@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <tuple>
 
 #include <mirrorball/compare.h>
@@ -287,6 +288,34 @@ BENCHMARK(stage_analysis_legendre)->Apply(on_threads);
 BENCHMARK(stage_synthesis_legendre)->Apply(on_threads);
 BENCHMARK(stage_synthesis_fourier)->Apply(on_threads);
 BENCHMARK(stage_texels)->Apply(on_threads);
+
+// ---- A slider: one lobe after the other, of a source that is taken apart ----
+
+// As fine a cube as the source shows of the lobe, made a second time: the first finds what is kept.
+void new_lobe(benchmark::State& state, const char* text, int size) {
+    LobeFilter filter(std::shared_ptr<const EnvironmentMap>(
+        &sunset(Projection::equirect, kPanoramaWidth), [](const EnvironmentMap*) {}));
+    const PrefilterTarget target{.lobe = parse_lobe(text), .size = size};
+    EnvironmentMap result = filter(target);
+    for (auto _ : state) result = filter(target);
+    expect_flux(state, result, filter.source(), 1e-2, target.lobe.integral());
+}
+
+#define MIRRORBALL_NEW_LOBE(name, ...)             \
+    BENCHMARK_CAPTURE(new_lobe, name, __VA_ARGS__) \
+        ->Unit(benchmark::kMillisecond)            \
+        ->MeasureProcessCPUTime()                  \
+        ->UseRealTime()
+MIRRORBALL_NEW_LOBE(ggx_0_08, "ggx:0.08", 256);
+MIRRORBALL_NEW_LOBE(ggx_0_1, "ggx:0.1", 256);
+MIRRORBALL_NEW_LOBE(ggx_0_15, "ggx:0.15", 256);
+MIRRORBALL_NEW_LOBE(ggx_0_2, "ggx:0.2", 256);
+MIRRORBALL_NEW_LOBE(ggx_0_3, "ggx:0.3", 128);
+MIRRORBALL_NEW_LOBE(ggx_0_5, "ggx:0.5", 64);
+MIRRORBALL_NEW_LOBE(ggx_1, "ggx:1", 32);
+MIRRORBALL_NEW_LOBE(phong_10, "phong:10", 64);
+MIRRORBALL_NEW_LOBE(phong_100, "phong:100", 256);
+MIRRORBALL_NEW_LOBE(phong_1000, "phong:1000", 256);
 
 // ---- The sum over every texel, from a panorama a sixteenth as large. Items are pairs ----
 

@@ -10,6 +10,7 @@
 #include <mirrorball/bump.h>
 #include <mirrorball/error.h>
 
+#include "bump/levels.h"
 #include "io/codec.h"
 #include "output.h"
 #include "targets.h"
@@ -25,6 +26,7 @@ struct Options {
     double width = 0, time = 0;
     int size = 512;
     bool has_size = false, has_time = false, list = false;
+    bool all_levels = false;
     Green green = Green::up;
     TexelFormat format = TexelFormat::automatic;
 };
@@ -121,18 +123,39 @@ Image stored_slopes(const SlopeMap& map, bool integer, double range) {
     return picture;
 }
 
-Image stored_picture(const BumpPicture& bump, bool integer, const Options& options,
-                     const Shared& shared) {
-    switch (options.to) {
-        case BumpKind::height:
-            return stored_heights(*bump.relief, integer, options, shared);
-        case BumpKind::normal:
-            return stored_normals(bump.normals ? *bump.normals : normals(bump.slopes),
-                                  options.green);
-        case BumpKind::slopes:
-            break;
+// What a smaller level of normals or slopes loses, each as GGX's alpha in the fourth channel, to be
+// added in squares to that of the surface.
+Image with_alpha(const Image& picture, const BumpLevel& level) {
+    Image result(picture.width(), picture.height(), 4);
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) {
+            std::copy_n(picture.at(x, y), 3, result.at(x, y));
+            const double variance = covariance(level, x, y).mean();
+            result.at(x, y)[3] = static_cast<float>(alpha_with_variance(0, variance));
+        }
+    return result;
+}
+
+std::vector<Image> stored_levels(const BumpPicture& bump, bool integer, const Options& options,
+                                 const Shared& shared) {
+    if (options.to == BumpKind::height) {
+        Image heights = stored_heights(*bump.relief, integer, options, shared);
+        if (!options.all_levels) return {std::move(heights)};
+        return detail::area_levels(std::move(heights));
     }
-    return stored_slopes(bump.slopes, integer, options.read.range);
+    const auto stored = [&](const SlopeMap& slopes, const NormalMap& normals) {
+        return options.to == BumpKind::normal ? stored_normals(normals, options.green)
+                                              : stored_slopes(slopes, integer, options.read.range);
+    };
+    const NormalMap finest = bump.normals ? *bump.normals : normals(bump.slopes);
+    if (!options.all_levels) return {stored(bump.slopes, finest)};
+    std::vector<Image> levels;
+    for (const BumpLevel& level : bump_levels(bump.slopes)) {
+        // Directions of the mean slopes: of unit length, as shaders expect it.
+        const NormalMap mean = levels.empty() ? finest : normals(SlopeMap{level.mean});
+        levels.push_back(with_alpha(stored({level.mean}, mean), level));
+    }
+    return levels;
 }
 
 Json levels_json(const SlopeMap& map) {
@@ -229,8 +252,8 @@ int run(const Options& options, const Shared& shared) {
     write.metadata = {{"mirrorball.bump", std::string(name(options.to))}};
     if (options.to == BumpKind::normal)
         write.metadata["mirrorball.green"] = std::string(name(options.green));
-    const WriteReport report = write_image(
-        options.output, stored_picture(bump, is_integer(write.format), options, shared), write);
+    const WriteReport report = detail::write_levels(
+        options.output, stored_levels(bump, is_integer(write.format), options, shared), write);
     if (report.clipped_texel_count > 0)
         tell(shared, fmt::format("{}: {} texels are beyond what the format holds and are clipped{}",
                                  options.output, report.clipped_texel_count,
@@ -300,6 +323,8 @@ Command bump_command(Shared& shared) {
          "of 8- and 16-bit input [linear]",
          parsed(read.transfer, parse_transfer),
          {{"linear", "srgb"}, true}},
+        {"--levels", "", "all mip levels, with the roughness they lose as alpha: .ktx2 and .dds",
+         flag(options->all_levels)},
         {"--format", "FORMAT", "of a texel [float32; PNG 16 bits]",
          parsed(options->format, parse_texel_format), texel_format_choices()}};
     add_shared_options(command, shared);
@@ -309,11 +334,14 @@ Command bump_command(Shared& shared) {
         "of floats hold slopes and metres as they are; PNG and 8- or 16-bit TIFF hold slopes as "
         "1/2 + slope / (2 range) and heights from the lowest to the highest. They are numbers, "
         "without sRGB's curve.",
-        "--json tells the roughness that each mip level should have to look like the first."};
+        "--json tells the roughness that each mip level should have to look like the first; "
+        "--levels stores it in the fourth channel, for every texel: sqrt(2 variance), to be added "
+        "in squares to the alpha of the surface."};
     command.examples = {"mirrorball bump builtin:waves -o waves.png --time 2.5",
                         "mirrorball bump stones.png -o stones-normal.png --scale 0.02 --width 0.5",
                         "mirrorball bump opengl.png -o direct3d.png --from normal --green down",
                         "mirrorball bump builtin:bark -o bark.exr --to height --size 1024",
+                        "mirrorball bump stones.exr -o stones.ktx2 --levels --format rgba16f",
                         "mirrorball bump --list"};
     command.run = [options, &shared] { return run(*options, shared); };
     return command;

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include <mirrorball/error.h>
+
+#include "core/nearest.h"
 
 namespace mirrorball::detail {
 
@@ -23,11 +26,17 @@ struct NameTable {
     /// \throws Error(Errc::usage)
     [[nodiscard]] Value parse(std::string_view name) const {
         const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end()) {
-            throw Error(Errc::usage, fmt::format("\"{}\" is not {}; there are: {}", name, what,
-                                                 fmt::join(names, ", ")));
-        }
+        if (found == names.end()) fail(name);
         return static_cast<Value>(found - names.begin());
+    }
+
+  private:
+    [[noreturn]] void fail(std::string_view name) const {
+        const std::string near = nearest(name, {names.begin(), names.end()});
+        throw Error(Errc::usage,
+                    fmt::format("\"{}\" is not {}{}; there are: {}", name, what,
+                                near.empty() ? "" : fmt::format(", did you mean \"{}\"?", near),
+                                fmt::join(names, ", ")));
     }
 };
 

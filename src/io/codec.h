@@ -73,6 +73,14 @@ inline constexpr const char* kTakenAsSrgb = "float values taken as sRGB, as aske
 /// What read_file() does with a file that is open, or in memory.
 [[nodiscard]] FileContents read_contents(InputFile& file, const ReadOptions& options);
 
+/// write_image() of mip levels, each half the one before, rounded down.
+/// \throws also Error(Errc::usage) for more levels than files of the format hold
+WriteReport write_levels(const std::filesystem::path& path, std::span<const Image> levels,
+                         const WriteOptions& options = {});
+
+/// \throws Error(Errc::usage) for more levels than files of the codec hold
+void check_level_count(const Codec& codec, int level_count, const std::filesystem::path& path);
+
 /// Writes with one codec, commits, and gives the count of bytes. Refuses values that are NaN.
 /// \pre values are within the range of options.format, which is one of the codec's
 std::uint64_t write_contents(const std::filesystem::path& path, const Codec& codec,

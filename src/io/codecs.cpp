@@ -155,25 +155,33 @@ Image read_image(const std::filesystem::path& path, const ReadOptions& options) 
 
 WriteReport write_image(const std::filesystem::path& path, const Image& image,
                         const WriteOptions& options) {
-    if (image.empty())
+    return detail::write_levels(path, {&image, 1}, options);
+}
+
+WriteReport detail::write_levels(const std::filesystem::path& path, std::span<const Image> levels,
+                                 const WriteOptions& options) {
+    if (levels.empty() || levels.front().empty())
         throw Error(Errc::usage, fmt::format("{}: the picture is empty", path.string()));
     const detail::Codec& codec = detail::codec_for_name(path);
     WriteOptions chosen = options;
     chosen.format = detail::choose_texel_format(codec, options.format, path);
+    detail::check_level_count(codec, static_cast<int>(levels.size()), path);
 
     FileContents contents;
     contents.format = codec.name;
     contents.stored = chosen.format;
-    contents.levels = {{image}};
     contents.metadata = options.metadata;
 
     WriteReport report;
-    Image& copy = contents.levels[0][0];
-    const std::span<float> values = copy.values();
-    const std::size_t channels = copy.channels();
-    for (std::size_t i = 0; i < values.size(); i += channels)
-        report.clipped_texel_count +=
-            detail::clamp_texel(values.subspan(i, channels), chosen.format);
+    for (const Image& level : levels) {
+        Image copy = level;
+        const std::span<float> values = copy.values();
+        const std::size_t channels = copy.channels();
+        for (std::size_t i = 0; i < values.size(); i += channels)
+            report.clipped_texel_count +=
+                detail::clamp_texel(values.subspan(i, channels), chosen.format);
+        contents.levels.push_back({std::move(copy)});
+    }
     report.byte_count = detail::write_contents(path, codec, contents, chosen);
     return report;
 }
@@ -274,6 +282,14 @@ FileContents read_contents(InputFile& file, const ReadOptions& options) {
     } catch (const std::length_error&) {
         file.fail("needs more memory than a program can have");
     }
+}
+
+void check_level_count(const Codec& codec, int level_count, const std::filesystem::path& path) {
+    if (level_count == 1 || codec.holds_levels) return;
+    throw Error(Errc::usage,
+                fmt::format("{}: {} files hold one level and there are {}; KTX2 holds them all "
+                            "(a name that ends in .ktx2)",
+                            path.string(), codec.name, level_count));
 }
 
 std::uint64_t write_contents(const std::filesystem::path& path, const Codec& codec,

@@ -217,14 +217,6 @@ void write_faces(FileSet& files, FaceEncoder& encoder, const ContentsView& frame
     }
 }
 
-void check_levels(const Codec& codec, const EnvironmentMap& map, const std::string& target) {
-    if (map.level_count() == 1 || codec.holds_levels) return;
-    throw Error(Errc::usage,
-                fmt::format("{}: {} files hold one level and the map has {}; KTX2 holds them all "
-                            "(a name that ends in .ktx2)",
-                            target, codec.name, map.level_count()));
-}
-
 }  // namespace
 }  // namespace detail
 
@@ -237,7 +229,7 @@ WriteReport write_map(const std::string& target, const EnvironmentMap& map,
     const Codec& codec = codec_for_name(target);
     WriteOptions chosen = options;
     chosen.format = choose_texel_format(codec, options.format, target);
-    check_levels(codec, map, target);
+    check_level_count(codec, map.level_count(), target);
 
     FaceEncoder encoder(map, chosen.format, target);
     FileSet files;

@@ -61,6 +61,14 @@ Material satin(const Vec3d& base_color, double roughness) {
     return material;
 }
 
+// Tiles are as wide as high on a ball.
+Material bumpy(Material material, std::string_view source, int tiles, double strength = 1) {
+    material.bump.source = source;
+    material.bump.repeat = {2.0 * tiles, 1.0 * tiles};
+    material.bump.strength = strength;
+    return material;
+}
+
 std::vector<MaterialPreset> make_presets() {
     const auto metal = [](std::string_view name) { return Fresnel::conductor(name); };
     return {
@@ -77,6 +85,13 @@ std::vector<MaterialPreset> make_presets() {
         {"matte", "grey, diffuse only", matte(Vec3d(0.6))},
         {"glass", "index 1.5", transparent(1.5)},
         {"diamond", "index 2.42", transparent(2.42)},
+        {"water", "index 1.33, with waves", bumpy(transparent(1.33), "waves", 1, 0.5)},
+        {"hammered-gold", "dents, polished", bumpy(polished(metal("gold")), "hammered", 2)},
+        {"brushed-steel", "GGX, roughness 0.25, fine lines",
+         bumpy(rough(metal("chromium"), 0.25), "brushed", 2, 1.5)},
+        {"leather", "blue, index 1.5, GGX, roughness 0.35, wrinkles",
+         bumpy(satin({0.02, 0.13, 0.4}, 0.35), "noise", 1)},
+        {"bark", "diffuse only, furrows", bumpy(matte({0.35, 0.2, 0.1}), "bark", 2, 1.5)},
         {"phong-10", "a Phong lobe alone, exponent 10", phong(10)},
         {"phong-100", "exponent 100", phong(100)},
         {"phong-1000", "exponent 1000", phong(1000)},

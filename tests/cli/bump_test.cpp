@@ -173,6 +173,32 @@ TEST_F(BumpVerb, SaysWhatItGuessesAndWhatIsOdd) {
     }
 }
 
+TEST_F(BumpVerb, LevelsHoldWhatTheyLose) {
+    must({"bump", "builtin:noise", "-o", file("n.ktx2"), "--levels", "--size", "48", "--format",
+          "rgba32f"});
+    const FileContents contents = read_file(file("n.ktx2"));
+    const std::vector<BumpLevel> expected = bump_levels(slopes(make_bump("noise", 48, 48)));
+    ASSERT_EQ(contents.levels.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const Image& level = contents.levels[i][0];
+        ASSERT_EQ(level.width(), expected[i].mean.width());
+        ASSERT_EQ(level.channels(), 4);
+        const int x = level.width() / 2, y = level.height() / 3;
+        const double alpha = std::sqrt(2 * covariance(expected[i], x, y).mean());
+        EXPECT_NEAR(level.at(x, y)[3], alpha, 1e-6) << i;
+        const Vec3f n = level.rgb(x, y) * 2.0f - Vec3f(1);
+        EXPECT_NEAR(n.length(), 1, 1e-6) << i;
+        EXPECT_NEAR(-n.x / n.z, expected[i].mean.at(x, y)[0], 1e-5) << i;
+        EXPECT_NEAR(-n.y / n.z, expected[i].mean.at(x, y)[1], 1e-5) << i;
+    }
+    must({"bump", "builtin:noise", "-o", file("h.ktx2"), "--levels", "--size", "8", "--to",
+          "height"});
+    EXPECT_EQ(read_file(file("h.ktx2")).levels.size(), 4u);
+    const Outcome png = run({"bump", "builtin:noise", "-o", file("n.png"), "--levels"});
+    EXPECT_EQ(png.code, 2);
+    EXPECT_NE(png.err.find("hold one level"), std::string::npos) << png.err;
+}
+
 TEST_F(BumpVerb, RefusesWhatItCannotDo) {
     const std::string out = file("out.png"), grey = ramp("r.exr");
     must({"bump", "builtin:noise", "-o", file("n.png"), "--size", "8"});

@@ -22,18 +22,15 @@ constexpr const char* kMoving = R"({
     "objects": [
         {"name": "water", "mesh": "plane", "transform": {"scale": 3},
          "material": {"fresnel": "index=1.33", "bump": {"source": "waves", "size": 32}}},
-        {"name": "ball", "material": "plastic", "transform": {"position": [-1.2, 1, 0]}},
-        {"name": "glossy", "dynamic": {"size": 16, "faces_per_frame": 2, "bounces": 2},
+        {"name": "glossy", "dynamic": {"size": 16, "faces_per_frame": 2},
          "material": {"mirror": 0.5, "glossy": 0.5, "lobe": "ggx:0.5"},
-         "transform": {"position": [1.2, 1, 0]}},
-        {"name": "mirror", "dynamic": {"size": 16, "bounces": 3}, "transform":
-         {"position": [0, 0.5, 1.5], "scale": 0.5}}],
+         "transform": {"position": [0, 0.7, 0]}}],
     "environment": {"source": "builtin:axes"}, "map_size": 16,
     "lights": [{"directional": {"direction": [1, 1, 1], "turn_degrees": 90}},
                {"point": {"position": [2, 1, 2], "turn_degrees": -400}}]})";
 // A lit ball, which is enough where only files matter.
 constexpr const char* kLit = R"({
-    "objects": [{"material": {"mirror": 0, "diffuse": 1}}],
+    "objects": [{"material": {"mirror": 0, "diffuse": 1, "fresnel": "index=1.5"}}],
     "environment": {"source": "builtin:white", "intensity": 0.2}, "map_size": 16,
     "lights": [{"directional": {"direction": [1, 0, 0], "turn_degrees": 90}}]})";
 
@@ -105,8 +102,6 @@ TEST_F(Frames, AreThePicturesOfTheirMoments) {
     must("moving.json", "%d.exr", {"--frames", "3:3", "--fps", "4", "--time", "0.5"});
     must("moving.json", "one.exr", {"--time", "1.25"});
     EXPECT_TRUE(contents(file("3.exr")) == contents(file("one.exr")));
-    must("moving.json", "one.exr", {"--time", "1"});
-    EXPECT_FALSE(contents(file("3.exr")) == contents(file("one.exr")));
 }
 
 // Or else what an interrupt left out would not fit in. Maps that show only some of their faces
@@ -114,12 +109,8 @@ TEST_F(Frames, AreThePicturesOfTheirMoments) {
 TEST_F(Frames, HaveTheSameBitsAloneAndInTheRun) {
     const Outcome all = must("moving.json", "all%d.exr", {"--frames", "0:3"});
     EXPECT_NE(all.err.find("faces_per_frame 2 of object \"glossy\""), std::string::npos) << all.err;
-    for (const char* number : {"3", "1"}) {
-        must("moving.json", "alone%02d.exr", {"--frames", std::string(number) + ":" + number});
-        EXPECT_TRUE(contents(file("all" + std::string(number) + ".exr")) ==
-                    contents(file("alone0" + std::string(number) + ".exr")))
-            << number;
-    }
+    must("moving.json", "alone%02d.exr", {"--frames", "3:3"});
+    EXPECT_TRUE(contents(file("all3.exr")) == contents(file("alone03.exr")));
     for (int i = 1; i < 4; ++i) {
         EXPECT_FALSE(contents(file("all" + std::to_string(i) + ".exr")) ==
                      contents(file("all" + std::to_string(i - 1) + ".exr")))
@@ -224,16 +215,15 @@ TEST_F(Frames, PlacesThatCannotHoldThemAreRefused) {
     expect_nothing("shut/new/%d.png", frames, 4, "shut");
 }
 
-// A limit on the size of files stands for a full disk.
+// A limit on the size of files stands for a full disk; a .pfm is not packed and larger.
 TEST_F(Frames, AFullDiskLeavesWholeFramesOnly) {
     const auto before = files_in(folder_.path());
     std::vector<std::string> words = {"/bin/bash", "-c", "ulimit -f 1; exec \"$0\" \"$@\""};
-    for (const std::string& word :
-         command(arguments("moving.json", "a/%d.exr", {"--frames", "0:3"})))
+    for (const std::string& word : command(arguments("lit.json", "a/%d.pfm", {"--frames", "0:3"})))
         words.push_back(word);
     const Outcome outcome = Program(words).wait();
     EXPECT_EQ(outcome.code, 4) << outcome.err;
-    EXPECT_NE(outcome.err.find("0.exr"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("0.pfm"), std::string::npos) << outcome.err;
     EXPECT_EQ(files_in(folder_.path()), before);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -139,7 +140,6 @@ TEST(SceneFile, MaterialsByNameAndLikeAnother) {
     EXPECT_EQ(scene.objects[2].material.diffuse, 0);
 }
 
-// A chain as long as a file can hold is followed without recursion.
 TEST(SceneFile, BumpsAndFloorsTakeOverWhatTheOnesTheyAreLikeHave) {
     const Scene scene = parsed(R"({"materials": {
         "sea": {"bump": {"source": "waves", "strength": 2, "repeat": 3},
@@ -153,6 +153,28 @@ TEST(SceneFile, BumpsAndFloorsTakeOverWhatTheOnesTheyAreLikeHave) {
     ASSERT_TRUE(m.floor);
     EXPECT_EQ(m.floor->height, -4);
     EXPECT_EQ(m.floor->color, Vec3d(0, 0, 1));
+}
+
+TEST(SceneFile, HoldsEveryPreset) {
+    for (const MaterialPreset& preset : material_presets()) {
+        Scene scene;
+        scene.objects.emplace_back().material = preset.material;
+        EXPECT_EQ(parsed(to_json(scene)), scene) << preset.name;
+    }
+}
+
+TEST(SceneFile, PresetsWithBumpsAreMadeOfSources) {
+    int count = 0;
+    const std::vector<BumpSource> sources = bump_sources();
+    for (const MaterialPreset& preset : material_presets()) {
+        if (preset.material.bump.is_smooth()) continue;
+        ++count;
+        EXPECT_TRUE(std::any_of(sources.begin(), sources.end(), [&](const BumpSource& source) {
+            return source.name == preset.material.bump.source;
+        })) << preset.name;
+        EXPECT_TRUE(can_show(Method::cube, preset.material.bump)) << preset.name;
+    }
+    EXPECT_EQ(count, 5);
 }
 
 TEST(SceneFile, PresetsAreThereUnlessTheFileUsesTheirNames) {
@@ -171,6 +193,7 @@ TEST(SceneFile, PresetsAreThereUnlessTheFileUsesTheirNames) {
     EXPECT_EQ(own.objects[0].material, half);
 }
 
+// A chain as long as a file can hold is followed without recursion.
 TEST(SceneFile, LongChainsOfMaterials) {
     std::string text = R"({"objects": [{"material": "m0"}], "materials": {)";
     const int count = 20000;
@@ -312,7 +335,9 @@ TEST(SceneFile, DocumentedExample) {
     const std::string text = all.str(), fence = "```json\n";
     const std::size_t start = text.find(fence) + fence.size();
     const Scene scene = parsed(text.substr(start, text.find("```", start) - start));
-    ASSERT_EQ(scene.objects.size(), 4u);
+    ASSERT_EQ(scene.objects.size(), 5u);
+    EXPECT_EQ(scene.objects[1].material.bump.source, "hammered");
+    EXPECT_EQ(scene.objects[4].material.floor.value_or(Floor()).color_map, "tiles.png");
     EXPECT_EQ(scene.objects[1].material.fresnel, Fresnel::conductor("gold"));
     EXPECT_EQ(scene.objects[1].material.coupling, Coupling::split_sum);
     EXPECT_EQ(scene.lights.size(), 2u);
