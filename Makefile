@@ -2,13 +2,16 @@
 # (scripts/install-packages.sh), configures, builds and runs; none ever asks a question.
 
 .DEFAULT_GOAL := build
-.PHONY: build demo gallery test bench gpu-test asan tsan fuzz format install clean help
+.PHONY: build demo gallery test web web-test bench gpu-test asan tsan fuzz format install clean help
 
 PREFIX ?= /usr/local
 INPUT ?= builtin:sunset
 DEMO ?= demo
 # More options for CMake: make CONFIGURE=-DCMAKE_CXX_COMPILER=clang++
 CONFIGURE ?=
+# The same for the page; and `make test WEB=no` leaves it out.
+WEB_CONFIGURE ?=
+WEB ?= yes
 PROGRAM := build/release/mirrorball
 
 help:  ## list the jobs
@@ -33,8 +36,27 @@ gallery:  ## make the pictures of docs/gallery again, by the commands in its REA
 	@cmake --build --preset release --target mirrorball_program
 	@scripts/gallery.sh build/release
 
-test: build  ## build everything and run all tests
+test: build  ## build everything and run all tests; the page's too where its packages are installed
+ifeq ($(WEB),no)
+	@ctest --preset release -E '^web$$'
+else
+	@missing=$$(scripts/install-packages.sh --missing web | paste -sd ' '); \
+	if [ -z "$$missing" ]; then $(MAKE) web; \
+	else printf 'The page for browsers is not tested: the packages %s are missing (make web installs them)\n' "$$missing"; fi
 	@ctest --preset release
+endif
+
+web:  ## build the page for browsers: a folder of static files, build/web/page
+	@scripts/install-packages.sh build web
+	@cmake --preset web $(WEB_CONFIGURE)
+	@cmake --build --preset web
+	@printf '\nThe page is in %s; to see it:  %s serve\n' '$(abspath build/web/page)' '$(PROGRAM)'
+
+web-test: web  ## test the page in Chromium, against the program's pictures
+	@scripts/install-packages.sh test
+	@cmake --preset release
+	@cmake --build --preset release --target mirrorball_program
+	@MIRRORBALL_WEB_REQUIRED=1 scripts/web-test.sh build/web $(PROGRAM)
 
 bench:  ## build and run the benchmarks
 	@scripts/install-packages.sh build test bench
@@ -55,13 +77,13 @@ asan:  ## build and run the tests under the address and undefined-behaviour sani
 	@scripts/install-packages.sh build test
 	@cmake --preset asan $(CONFIGURE)
 	@cmake --build --preset asan
-	@ctest --preset asan
+	@ctest --preset asan -E '^web$$'
 
 tsan:  ## build and run the tests under the thread sanitizer
 	@scripts/install-packages.sh build test
 	@cmake --preset tsan $(CONFIGURE)
 	@cmake --build --preset tsan
-	@ctest --preset tsan
+	@ctest --preset tsan -E '^web$$'
 
 fuzz:  ## feed each decoder malformed files for a bounded number of runs
 	@scripts/install-packages.sh build test fuzz

@@ -12,7 +12,10 @@ target_compile_options(mirrorball_options INTERFACE
     -ffp-contract=off -fno-math-errno -fno-trapping-math
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-float-conversion
     # GCC 12 warns of overlaps in its own std::string that cannot be (its bug 105651).
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+    # A browser's memory has 32-bit addresses. What is large is held against the limit of memory
+    # before room is made for it, so that no size is cut off.
+    $<$<BOOL:${EMSCRIPTEN}>:-Wno-shorten-64-to-32>)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     target_compile_options(mirrorball_options INTERFACE -mssse3)
 endif()

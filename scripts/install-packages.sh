@@ -46,6 +46,11 @@ bench   libbenchmark-dev       the benchmarks
 fuzz    clang                  libFuzzer comes with it
 fuzz    libclang-rt-14-dev     the sanitizers' and libFuzzer's run-time libraries
 fuzz    llvm                   llvm-symbolizer: names and lines in sanitizer reports
+web     emscripten             compiles the page to WebAssembly
+web     libtinyexr-dev         OpenEXR files in a browser
+web     chromium               the browser that tests the page
+web     nodejs                 runs those tests, and parts of emscripten
+web     npm                    gets the tests' driver of browsers
 format  clang-format           make format
 format  clang-tidy             checks of .clang-tidy
 TABLE
@@ -64,7 +69,9 @@ names() {
     done
 }
 
+# npm comes with Node.js where that is not Debian's, and the package npm would not go with it.
 installed() {
+    if [ "$1" = npm ] && command -v npm >/dev/null 2>&1; then return 0; fi
     [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null | cut -c 1-9)" = installed ]
 }
 
@@ -83,7 +90,7 @@ esac
 [ $# -gt 0 ] || set -- build test
 for set_name in "$@"; do
     if [ "$set_name" != all ] && ! known_set "$set_name"; then
-        say "install-packages.sh: '$set_name' is no set of packages (there are: build test bench fuzz format all)"
+        say "install-packages.sh: '$set_name' is no set of packages (there are: build test bench fuzz web format all)"
         exit 2
     fi
 done

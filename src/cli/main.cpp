@@ -23,7 +23,8 @@ std::vector<Command> all_commands(Shared& shared) {
                                      projections_command(shared), brdf_command(shared),
                                      fresnel_command(shared),     dfg_command(shared),
                                      view_stack_command(shared),  render_command(shared),
-                                     view_command(shared),        compare_methods_command(shared)};
+                                     view_command(shared),        compare_methods_command(shared),
+                                     serve_command(shared)};
     commands.push_back(completion_command(shared, commands));
     return commands;
 }

@@ -16,6 +16,7 @@ namespace mirrorball::cli {
 [[nodiscard]] Command irradiance_sh_command(Shared& shared);
 [[nodiscard]] Command compare_command(Shared& shared);
 [[nodiscard]] Command sky_command(Shared& shared);
+[[nodiscard]] Command serve_command(Shared& shared);
 [[nodiscard]] Command bump_command(Shared& shared);
 [[nodiscard]] Command projections_command(Shared& shared);
 [[nodiscard]] Command brdf_command(Shared& shared);

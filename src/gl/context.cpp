@@ -98,11 +98,6 @@ EGLContext make_context(EGLDisplay display, Api api) {
     return context;
 }
 
-std::string text(GLenum name) {
-    const auto* value = reinterpret_cast<const char*>(glGetString(name));
-    return value ? value : "";
-}
-
 }  // namespace
 
 struct Context::Handles {
@@ -128,10 +123,6 @@ void Context::make_current() {
         refuse(handles_->api,
                fmt::format("its context works with a window only ({})", egl_error()));
     }
-}
-
-Driver driver() {
-    return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION), !epoxy_is_desktop_gl()};
 }
 
 }  // namespace mirrorball::gl

@@ -24,7 +24,7 @@ CubeTarget::CubeTarget(int size, FaceDrawing drawing) : size_(size), drawing_(dr
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     const std::string doing = fmt::format("making depth for a cube map of {} x {}", size, size);
     if (drawing == FaceDrawing::one_pass) {
-        if (!epoxy_is_desktop_gl()) {
+        if (!is_desktop()) {
             throw Error(Errc::unsupported,
                         "a cube map's faces in one pass need a geometry shader, which OpenGL ES "
                         "3.0 has not; \"texture\" and \"copy\" draw the same");

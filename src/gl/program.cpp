@@ -78,7 +78,7 @@ class Shader {
 }  // namespace
 
 std::string shader_source(std::string_view file, const Definitions& definitions) {
-    std::string result = epoxy_is_desktop_gl()
+    std::string result = is_desktop()
                              ? "#version 450 core\n"
                              : "#version 300 es\nprecision highp float;\nprecision highp int;\n"
                                "precision highp sampler2D;\nprecision highp samplerCube;\n"

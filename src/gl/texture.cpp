@@ -97,7 +97,7 @@ std::uint64_t Texture::bytes() const {
 }
 
 void make_cubes_seamless() {
-    if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    if (is_desktop()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 
 GLenum target_for(Projection projection) {

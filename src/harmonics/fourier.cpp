@@ -45,7 +45,9 @@ FourierPlan::FourierPlan(int length) : length_(length) {
 }
 
 int largest_prime_factor(int length) {
-    return length > 1 ? std::ranges::max(factors(length)) : 1;
+    if (length <= 1) return 1;
+    const std::vector<int> all = factors(length);
+    return *std::max_element(all.begin(), all.end());
 }
 
 int good_fourier_length(int least) {

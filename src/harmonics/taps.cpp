@@ -83,10 +83,8 @@ TapDesign::TapDesign(std::span<const double> power, double step)
     for (int entry = 0; entry <= kEntryCount; ++entry) {
         const double x = static_cast<double>(entry) / kEntryCount;
         Row sum{};
-        double weight_sum = 0;
         for (int n = 0; n < kNodeCount; ++n) {
             const double weight = shares[n] / (x - nodes[n]);  // no entry is a node
-            weight_sum += weight;
             for (int i = 0; i < kTapCount; ++i) sum[i] += weight * at_nodes[n][i];
         }
         double total_weight = 0;

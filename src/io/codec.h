@@ -52,6 +52,8 @@ struct Codec {
 };
 
 extern const Codec kHdr, kExr, kPng, kJpeg, kTiff, kKtx2, kDds, kPfm;
+// In a browser, what stands for PNG, JPEG and all that it shows by itself.
+extern const Codec kDecodedPicture;
 
 [[nodiscard]] std::span<const Codec* const> codecs();
 

@@ -190,7 +190,18 @@ namespace detail {
 
 std::span<const Codec* const> codecs() {
     static const std::vector<const Codec*> kTable = {
-        &kHdr, &kExr, &kPng, &kJpeg, &kTiff, &kKtx2, &kDds, &kPfm,
+        &kHdr,
+        &kExr,
+#if defined(__EMSCRIPTEN__)
+        &kDecodedPicture,
+#else
+        &kPng,
+        &kJpeg,
+        &kTiff,
+#endif
+        &kKtx2,
+        &kDds,
+        &kPfm,
     };
     return kTable;
 }

@@ -123,9 +123,12 @@ bool write_fully(int descriptor, std::span<const std::byte> bytes, off_t offset)
 }
 
 // Lets the disk begin with what commit() will wait for, while the rest is made. Only a hint.
-void begin_to_sync(int descriptor, std::uint64_t offset, std::uint64_t size) {
+void begin_to_sync([[maybe_unused]] int descriptor, [[maybe_unused]] std::uint64_t offset,
+                   [[maybe_unused]] std::uint64_t size) {
+#if defined(SYNC_FILE_RANGE_WRITE) && !defined(__EMSCRIPTEN__)
     sync_file_range(descriptor, static_cast<off64_t>(offset), static_cast<off64_t>(size),
                     SYNC_FILE_RANGE_WRITE);
+#endif
 }
 
 // The count of bytes read, fewer than asked for only at the end of the file; -1 and errno.
@@ -331,7 +334,7 @@ void OutputFile::write(std::span<const std::byte> bytes) {
 }
 
 void OutputFile::write(std::string_view text) {
-    write(std::as_bytes(std::span(text)));
+    write(std::as_bytes(std::span(text.data(), text.size())));
 }
 
 void OutputFile::flush() {

@@ -1,14 +1,14 @@
 #include "hdr.h"
 
 #include <algorithm>
-#include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
 
 #include "codec.h"
+#include "core/bits.h"
+#include "core/numbers.h"
 #include "core/parallel.h"
 #include "row_source.h"
 
@@ -62,7 +62,7 @@ std::vector<std::string_view> words(std::string_view text) {
 template <class T>
 std::optional<T> number(std::string_view text) {
     T value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
     return value;
 }
@@ -97,10 +97,10 @@ void rgb_from_xyz(std::span<float> texels) {
 Rgbe encode(const float* rgb) {
     const double largest = std::max({rgb[0], rgb[1], rgb[2]});
     // largest < 2^exponent, by at most a factor of 2
-    int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52) - 1022;
+    int exponent = static_cast<int>(bit_cast<std::uint64_t>(largest) >> 52) - 1022;
     if (exponent < -127) return {0, 0, 0, 0};
     const auto power_of_two = [](int e) {
-        return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+        return bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
     };
     // Rounding may carry the largest mantissa to 256, which belongs to the next exponent.
     if (largest * power_of_two(8 - exponent) >= 255.5) ++exponent;

@@ -22,13 +22,13 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <zstd.h>
 
 #include <mirrorball/error.h>
 
 #include "codec.h"
 #include "orientation.h"
 #include "packed.h"
+#include "zstandard.h"
 
 namespace mirrorball::detail {
 namespace {
@@ -345,11 +345,7 @@ void read_level(InputFile& file, const LevelEntry& entry, std::uint32_t supercom
     }
     std::vector<std::byte> packed(entry.length);
     file.read(packed);
-    const std::size_t size = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
-    if (ZSTD_isError(size))
-        file.fail(fmt::format("its Zstandard data is broken ({})", ZSTD_getErrorName(size)));
-    if (size != out.size())
-        file.fail(fmt::format("a level unpacks to {} bytes ({} were expected)", size, out.size()));
+    unpack_zstandard(file, packed, out);
 }
 
 // Our pictures run to the right and down; a cube of any other orientation is not valid KTX2.
@@ -448,17 +444,6 @@ std::vector<std::byte> packed_faces(Packing packing,
     return bytes;
 }
 
-std::vector<std::byte> compress(const OutputFile& file, std::span<const std::byte> bytes) {
-    constexpr int kEffort = 9;  // of 19: twice as slow as the default 3 and a few per cent smaller
-    std::vector<std::byte> packed(ZSTD_compressBound(bytes.size()));
-    const std::size_t size =
-        ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kEffort);
-    if (ZSTD_isError(size))
-        file.fail(fmt::format("Zstandard failed ({})", ZSTD_getErrorName(size)));
-    packed.resize(size);
-    return packed;
-}
-
 void pad_to(OutputFile& file, std::uint64_t alignment) {
     const std::vector<std::byte> zeros(round_up(file.position(), alignment) - file.position());
     file.write(zeros);
@@ -509,7 +494,7 @@ void write(OutputFile& file, const ContentsView& contents, const WriteOptions& o
         entry.unpacked_length = level_bytes(packing, face_count, level_size(base.width(), level),
                                             level_size(base.height(), level));
         if (h.supercompression == kZstandard)
-            file.write(compress(file, packed_faces(packing, faces)));
+            file.write(pack_zstandard(file, packed_faces(packing, faces)));
         else
             for (const Image& face : faces) write_packed(file, packing, face);
         entry.length = file.position() - entry.offset;

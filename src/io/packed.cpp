@@ -10,6 +10,7 @@
 #include <half.h>
 
 #include "codec.h"
+#include "core/bits.h"
 #include "core/parallel.h"
 #include "core/vectorized.h"
 
@@ -53,15 +54,15 @@ inline std::uint32_t small_float_bits(std::uint32_t bits) {
     const std::uint32_t last_kept = bits >> kShift & 1;
     const std::uint32_t normal =
         (bits - (112u << 23) + ((1u << (kShift - 1)) - 1) + last_kept) >> kShift;
-    const std::uint32_t small = std::bit_cast<std::uint32_t>(std::bit_cast<float>(bits) + kLarge) -
-                                std::bit_cast<std::uint32_t>(kLarge);
+    const std::uint32_t small =
+        bit_cast<std::uint32_t>(bit_cast<float>(bits) + kLarge) - bit_cast<std::uint32_t>(kLarge);
     return bits < kSmallestNormal ? small : normal;
 }
 
 constexpr std::uint32_t kInfinityBits = 0x7f800000;
 
 inline std::uint16_t half_bits(float value) {
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t bits = bit_cast<std::uint32_t>(value);
     const std::uint32_t magnitude = bits & 0x7fffffff;
     const std::uint32_t finite = std::min(small_float_bits<10>(magnitude), 0x7c00u);
     const std::uint32_t half = magnitude > kInfinityBits ? 0x7e00u : finite;
@@ -73,7 +74,7 @@ inline std::uint16_t half_bits(float value) {
 template <int M>
 inline std::uint32_t unsigned_float_bits(float value) {
     constexpr std::uint32_t kInfinite = 31u << M;
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t bits = bit_cast<std::uint32_t>(value);
     const std::uint32_t finite = std::min(small_float_bits<M>(bits & 0x7fffffff), kInfinite - 1);
     const std::uint32_t positive = (bits & 0x7fffffff) == kInfinityBits ? kInfinite : finite;
     const std::uint32_t number = bits >> 31 != 0 ? 0 : positive;
@@ -91,7 +92,7 @@ inline std::uint32_t rgb9e5_bits(float red, float green, float blue) {
         return positive < kLargest ? positive : kLargest;
     };
     const auto power_of_two = [](std::int32_t e) {
-        return std::bit_cast<float>(static_cast<std::uint32_t>(e + 127) << 23);
+        return bit_cast<float>(static_cast<std::uint32_t>(e + 127) << 23);
     };
     const auto rounded = [](float v) {
         const auto whole = static_cast<std::int32_t>(v);
@@ -100,7 +101,7 @@ inline std::uint32_t rgb9e5_bits(float red, float green, float blue) {
     const float r = limited(red), g = limited(green), b = limited(blue);
     const float largest = std::max(r, std::max(g, b));
     const auto binary_exponent =
-        static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(largest) >> 23) - 127;
+        static_cast<std::int32_t>(bit_cast<std::uint32_t>(largest) >> 23) - 127;
     std::int32_t exponent = std::max(binary_exponent + 16, 0);
     exponent += rounded(largest * power_of_two(24 - exponent)) == 512 ? 1 : 0;
     const float scale = power_of_two(24 - exponent);

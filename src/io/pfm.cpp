@@ -7,13 +7,14 @@
 //                  nothing agrees on how to apply, so values are taken as they are
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "codec.h"
+#include "core/bits.h"
+#include "core/numbers.h"
 #include "row_source.h"
 
 namespace mirrorball::detail {
@@ -51,7 +52,7 @@ T read_number(InputFile& file, const char* what) {
     const std::string word = read_word(file);
     T value{};
     const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, value);
+    const auto [stop, error] = from_chars(word.data(), end, value);
     if (error != std::errc{} || stop != end)
         file.fail(fmt::format("has the {} '{}', which is no number", what, word));
     return value;
@@ -59,7 +60,7 @@ T read_number(InputFile& file, const char* what) {
 
 void reverse_bytes(std::span<float> values) {
     for (float& value : values)
-        value = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
+        value = bit_cast<float>(__builtin_bswap32(bit_cast<std::uint32_t>(value)));
 }
 
 struct PfmHeader {

@@ -18,6 +18,7 @@
 #include <mirrorball/error.h>
 #include <tiny_obj_loader.h>
 
+#include "core/numbers.h"
 #include "readers.h"
 #include "triangulate.h"
 
@@ -103,7 +104,7 @@ class TextChecker {
     static bool is_number(std::string_view word) {
         if (word.front() == '+') word.remove_prefix(1);
         double value = 0;
-        const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const auto [stop, error] = from_chars(word.data(), word.data() + word.size(), value);
         return error == std::errc() && stop == word.data() + word.size() &&
                std::abs(value) <= std::numeric_limits<float>::max();
     }

@@ -83,7 +83,8 @@ Ones::Ones(const AnalysisPlan& analysis) : harmonics_(analysis.band_count()) {
         return;
     }
     EnvironmentMap white = make_environment_map(shape);
-    for (Image& face : white.levels[0].faces) std::ranges::fill(face.values(), 1.0f);
+    for (Image& face : white.levels[0].faces)
+        std::fill(face.values().begin(), face.values().end(), 1.0f);
     analysis.run(white.levels[0].faces, harmonics_);
     // with fewer columns than bands it depends on the longitude too
     if (analysis.on_rings()) zonal_count_ = shape.size;

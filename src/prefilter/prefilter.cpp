@@ -171,7 +171,8 @@ void PrefilterPlan::Plan::look_at(const EnvironmentMap& map, Source& source) con
     const auto takes_all = [](const Way& w) {
         return w.filtered && w.filtered->whole_source_near();
     };
-    if (std::ranges::any_of(ways_, takes_all)) source.whole.emplace(all_lights(map, solid_angles_));
+    if (std::any_of(ways_.begin(), ways_.end(), takes_all))
+        source.whole.emplace(all_lights(map, solid_angles_));
 }
 
 void PrefilterPlan::Plan::run(const EnvironmentMap& map, Prefiltered& result,

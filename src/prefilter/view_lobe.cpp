@@ -172,7 +172,7 @@ Axis climb(const Kernel& kernel, const Glow& glow, const Vec3d& start, bool in_p
 
 // Is the kernel its own mirror image in the plane of the view?
 bool is_symmetric(const Kernel& kernel, const Glow& glow) {
-    return std::ranges::all_of(glow.directions, [&](const Vec3d& d) {
+    return std::all_of(glow.directions.begin(), glow.directions.end(), [&](const Vec3d& d) {
         const double a = sum_of(kernel(d)), b = sum_of(kernel({d.x, -d.y, d.z}));
         return std::abs(a - b) <= 1e-9 * std::max(a, b);
     });
@@ -214,7 +214,7 @@ ViewLobe fit_view_lobe(const Brdf& brdf, const Vec3d& wo) {
     const Circles circles(kernel, axis.direction, axis.width, kFinal);
     std::vector<double> weights;
     for (const Vec3d& mean : circles.means) weights.push_back(std::max(0.0, sum_of(mean)));
-    if (std::ranges::all_of(weights, [](double w) { return w == 0; })) return result;
+    if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) return result;
     result.axis = axis.direction;
     result.lobe = tabulated_lobe(name_of(wo), circles.angles, weights);
     result.albedo = circles.integral();

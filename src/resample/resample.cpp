@@ -464,9 +464,9 @@ class RowRunner {
             const float* const value = values_ + 3 * k;
             sum += Vec3d(value[0], value[1], value[2]) * weight;
             if (x == (k + 1 < stencils_.count ? uses_[k + 1].x : next_x)) continue;
-            std::ranges::copy(std::array{static_cast<float>(sum.x), static_cast<float>(sum.y),
-                                         static_cast<float>(sum.z)},
-                              result(repeat, x, 1));
+            const std::array rgb{static_cast<float>(sum.x), static_cast<float>(sum.y),
+                                 static_cast<float>(sum.z)};
+            std::copy(rgb.begin(), rgb.end(), result(repeat, x, 1));
             sum = Vec3d(0.0);
         }
     }
@@ -501,7 +501,8 @@ void copy_level(const Level& from, Level& to) {
     detail::parallel_for(
         static_cast<std::int64_t>(from.faces.size()) * height, [&](std::int64_t i) {
             const int face = static_cast<int>(i / height), y = static_cast<int>(i % height);
-            std::ranges::copy(from.faces[face].row(y), to.faces[face].row(y).begin());
+            const std::span<const float> row = from.faces[face].row(y);
+            std::copy(row.begin(), row.end(), to.faces[face].row(y).begin());
         });
 }
 
@@ -604,7 +605,8 @@ class Resampler::Plan {
     [[nodiscard]] std::int64_t smooth_count() const {
         std::int64_t sum = 0;
         for (std::size_t i = 0; i < rows_.size(); ++i)
-            sum += std::ranges::count(rows_[i].texels, BoxKind::smooth, &Box::kind) *
+            sum += std::count_if(rows_[i].texels.begin(), rows_[i].texels.end(),
+                                 [](const Box& box) { return box.kind == BoxKind::smooth; }) *
                    std::ssize(patches_[row_places_[i].patch].repeats);
         return sum;
     }

@@ -132,7 +132,7 @@ ReflectionMaps make_reflection_maps(const EnvironmentMap& environment, std::span
     }
     std::vector<EnvironmentMap> blurred = prefilter(environment, targets, options.progress);
     const auto diffuse = blurred.begin() + static_cast<std::ptrdiff_t>(maps.lobes.size());
-    if (options.rough) maps.rough = levels_of({diffuse + 1, blurred.end()});
+    if (options.rough) maps.rough = levels_of(std::span(blurred).subspan(maps.lobes.size() + 1));
     maps.diffuse = std::move(*diffuse);
     blurred.erase(diffuse, blurred.end());
     maps.glossy = std::move(blurred);

@@ -1,0 +1,32 @@
+# The libraries that mirrorball is built on, of this machine.
+find_package(OpenEXR CONFIG REQUIRED)
+find_package(Imath CONFIG REQUIRED)
+find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED)
+find_package(TIFF REQUIRED)
+find_package(TBB CONFIG REQUIRED)
+find_package(hwy CONFIG REQUIRED)
+find_package(fmt CONFIG REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(Zstd REQUIRED IMPORTED_TARGET libzstd)
+if(MIRRORBALL_BUILD_RENDERER)
+    find_package(tinyobjloader CONFIG REQUIRED)
+    find_package(TinyGLTF CONFIG REQUIRED)
+    find_package(nlohmann_json CONFIG REQUIRED)
+    pkg_check_modules(Epoxy REQUIRED IMPORTED_TARGET epoxy)
+endif()
+
+# The window of `mirrorball view`; without what it needs, the program has all other verbs.
+pkg_check_modules(Glfw QUIET IMPORTED_TARGET glfw3)
+pkg_check_modules(ImGui QUIET IMPORTED_TARGET imgui)
+if(Glfw_FOUND AND ImGui_FOUND)
+    set(has_window ON)
+else()
+    set(has_window OFF)
+endif()
+option(MIRRORBALL_BUILD_VIEWER "Build the window of the program's verb view (needs GLFW and ImGui)"
+    ${has_window})
+if(MIRRORBALL_BUILD_VIEWER AND NOT has_window)
+    message(FATAL_ERROR "MIRRORBALL_BUILD_VIEWER needs GLFW and Dear ImGui: "
+        "apt-get install libglfw3-dev libimgui-dev")
+endif()
