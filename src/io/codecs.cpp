@@ -287,7 +287,7 @@ FileContents read_contents(InputFile& file, const ReadOptions& options) {
 void check_level_count(const Codec& codec, int level_count, const std::filesystem::path& path) {
     if (level_count == 1 || codec.holds_levels) return;
     throw Error(Errc::usage,
-                fmt::format("{}: {} files hold one level and there are {}; KTX2 holds them all "
+                fmt::format("{}: {} files hold one level and this has {}; KTX2 holds them all "
                             "(a name that ends in .ktx2)",
                             path.string(), codec.name, level_count));
 }
