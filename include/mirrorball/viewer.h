@@ -159,9 +159,9 @@ class Viewer {
     // Pictures
     // ------------------------------------------------------------------------------------------
 
-    /// Into the framebuffer that is bound, as sRGB, from this pixel to the right and upwards; leaves
-    /// it bound. While nothing changes, each call makes the picture smoother until it is. \throws
-    /// Error as Renderer does; the scene is then the last that could be drawn
+    /// Into the framebuffer that is bound, as sRGB, from this pixel to the right and upwards;
+    /// leaves it bound. While nothing changes, each call makes the picture smoother until it is.
+    /// \throws Error as Renderer does; the scene is then the last that could be drawn
     void draw(int width, int height, int left = 0, int bottom = 0);
     /// Has the picture all its samples?
     [[nodiscard]] bool is_smooth() const;

@@ -47,8 +47,8 @@ std::vector<double> power_spectrum(const Harmonics& harmonics) {
 Harmonics operator+(Harmonics a, const Harmonics& b) {
     assert(a.band_count() == b.band_count());
     for (int m = 0; m < a.band_count(); ++m) {
-        std::transform(a.order(m).begin(), a.order(m).end(), b.order(m).begin(),
-                       a.order(m).begin(), std::plus<>());
+        std::transform(a.order(m).begin(), a.order(m).end(), b.order(m).begin(), a.order(m).begin(),
+                       std::plus<>());
     }
     return a;
 }

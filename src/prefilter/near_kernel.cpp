@@ -28,8 +28,7 @@ void NearKernel::add_part(double nearest, double farthest, double offset, int bi
         (bits_of(farthest * farthest + part.offset) + step - 1) & ~(step - 1);
     std::vector<double> chords2;
     for (std::uint32_t at = part.first; at <= last; at += step)
-        chords2.push_back(
-            std::clamp(double{bit_cast<float>(at)} - double{part.offset}, 0.0, 4.0));
+        chords2.push_back(std::clamp(double{bit_cast<float>(at)} - double{part.offset}, 0.0, 4.0));
     part.nearest = static_cast<float>(std::sqrt(chords2.front()));
     part.farthest = static_cast<float>(std::sqrt(chords2.back()));
     for (const double value : f(chords2)) part.entries.push_back(static_cast<float>(value));
