@@ -10,6 +10,8 @@
 #include <mirrorball/mesh.h>
 #include <mirrorball/scene_file.h>
 
+#include "scene/scene_bounds.h"
+
 namespace mirrorball::cli {
 namespace {
 
@@ -126,20 +128,12 @@ Orbit parse_orbit(const std::string& text) {
             parts.size() == 3 ? parse_real_number(parts[2], 1e-3, 1e6) : 1};
 }
 
-Bounds bounds_of(const Scene& scene, const SceneAssets& assets) {
-    Mesh corners;
-    for (const SceneObject& object : scene.objects) {
-        for (const Vec3f& position : assets.meshes.at(object.mesh).positions)
-            corners.positions.push_back(Vec3f(object.transform.point(Vec3d(position))));
-    }
-    return bounds(corners);
-}
-
 void place_camera(Scene& scene, const SceneAssets& assets, const SceneInput& input) {
     const Orbit orbit = parse_orbit(input.camera.empty() ? "25,14" : input.camera);
     const double aspect = static_cast<double>(input.width) / input.height;
     const double field_of_view = scene.camera.field_of_view;
-    scene.camera = framing(bounds_of(scene, assets), aspect, orbit.yaw, orbit.pitch, field_of_view);
+    scene.camera =
+        framing(detail::bounds_of(scene, assets), aspect, orbit.yaw, orbit.pitch, field_of_view);
     scene.camera.eye =
         scene.camera.target + (scene.camera.eye - scene.camera.target) * orbit.nearer;
 }

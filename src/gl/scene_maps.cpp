@@ -6,6 +6,8 @@
 
 #include <mirrorball/reflection_maps.h>
 
+#include "scene/method_lookup.h"
+
 namespace mirrorball::gl {
 namespace {
 
@@ -21,20 +23,6 @@ int size_as_fine(const EnvironmentMap& environment, Projection projection, int s
     const double finer = static_cast<double>(mirror_map_size(environment, projection)) /
                          mirror_map_size(environment, Projection::cube);
     return static_cast<int>(std::lround(finer * size));
-}
-
-// Methods that find the place on the map at the vertices cannot choose a roughness at each pixel.
-bool finds_pixels(Method method) {
-    switch (method) {
-        case Method::sphere_vertex:
-        case Method::cube_vertex:
-        case Method::cube_split:
-        case Method::dual_paraboloid_vertex:
-        case Method::dual_paraboloid_passes:
-            return false;
-        default:
-            return true;
-    }
 }
 
 constexpr std::uint64_t kMostUnusedBytes = 64 << 20;
@@ -59,7 +47,8 @@ SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size
     maps_.mirror = uploaded(mirror, method);
     if (method == Method::cube_split) maps_.mirror_faces = upload_faces(mirror);
     maps_.diffuse = uploaded((*filter_)(diffuse_target(projection_, axes_)), method);
-    if (rough && finds_pixels(method)) make_rough();
+    // A roughness for each pixel takes a lookup for each.
+    if (rough && detail::looks_up_per_pixel(method)) make_rough();
     if (is_warped(method)) warped_.emplace(method, maps_);
 }
 

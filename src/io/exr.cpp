@@ -39,6 +39,7 @@
 #include "codec.h"
 #include "core/parallel.h"
 #include "edge_grid.h"
+#include "exr_strip.h"
 #include "packed.h"
 #include "row_source.h"
 
@@ -393,19 +394,6 @@ Image in_display_window(const InputFile& file, const Image& data, const Box2i& d
                     picture.at(shared.min.x - display_window.min.x, y - display_window.min.y));
     }
     return picture;
-}
-
-// The strip's six pictures in our order.
-std::vector<Image> cut_strip(const Image& strip) {
-    const int n = strip.width();
-    std::vector<Image> faces;
-    for (int face = 0; face < 6; ++face) {
-        Image& image = faces.emplace_back(n, n, strip.channels());
-        for (int y = 0; y < n; ++y)
-            std::copy_n(strip.row(face * n + y).data(), image.row(y).size(), image.row(y).data());
-    }
-    std::swap(faces[4], faces[5]);
-    return faces;
 }
 
 Image paste_strip(const std::vector<Image>& faces) {

@@ -15,6 +15,7 @@
 
 #include "codec.h"
 #include "edge_grid.h"
+#include "exr_strip.h"
 #include "packed.h"
 
 #pragma clang diagnostic push
@@ -174,19 +175,6 @@ Image assemble(const InputFile& file, const Header& header, const Pixels& pixels
              header.tile_size_x);
     }
     return image;
-}
-
-// The strip's six pictures in our order.
-std::vector<Image> cut_strip(const Image& strip) {
-    const int n = strip.width();
-    std::vector<Image> faces;
-    for (int face = 0; face < 6; ++face) {
-        Image& image = faces.emplace_back(n, n, strip.channels());
-        for (int y = 0; y < n; ++y)
-            std::copy_n(strip.row(face * n + y).data(), image.row(y).size(), image.row(y).data());
-    }
-    std::swap(faces[4], faces[5]);
-    return faces;
 }
 
 void read_attributes(const Header& header, FileContents& contents,

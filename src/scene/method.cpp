@@ -6,6 +6,8 @@
 #include <mirrorball/projection.h>
 #include <mirrorball/scene.h>
 
+#include "scene/method_lookup.h"
+
 namespace mirrorball {
 namespace {
 
@@ -75,9 +77,7 @@ Method parse_method(std::string_view name) {
     throw Error(Errc::usage, fmt::format("\"{}\" is not a method; there are: {}", name, names));
 }
 
-bool can_show(Method method, const BumpMap& bump) {
-    if (bump.is_smooth()) return true;
-    if (bump.form == BumpForm::classic) return projection_of(method) == Projection::sphere;
+bool detail::looks_up_per_pixel(Method method) {
     switch (method) {
         case Method::sphere_vertex:
         case Method::cube_vertex:
@@ -88,6 +88,12 @@ bool can_show(Method method, const BumpMap& bump) {
         default:
             return true;
     }
+}
+
+bool can_show(Method method, const BumpMap& bump) {
+    if (bump.is_smooth()) return true;
+    if (bump.form == BumpForm::classic) return projection_of(method) == Projection::sphere;
+    return detail::looks_up_per_pixel(method);
 }
 
 }  // namespace mirrorball

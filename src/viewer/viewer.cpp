@@ -19,6 +19,7 @@
 #include "gl/framebuffer_guard.h"
 #include "hover.h"
 #include "io/file.h"
+#include "scene/scene_bounds.h"
 #include "shown_maps.h"
 #include "smooth_picture.h"
 #include "viewer_state.h"
@@ -44,15 +45,6 @@ Scene usual_scene() {
     object.material = preset_material("chrome");
     scene.objects.push_back(object);
     return scene;
-}
-
-Bounds bounds_of(const Scene& scene, const SceneAssets& assets) {
-    Mesh corners;
-    for (const SceneObject& object : scene.objects) {
-        for (const Vec3f& position : assets.meshes.at(object.mesh).positions)
-            corners.positions.push_back(Vec3f(object.transform.point(Vec3d(position))));
-    }
-    return bounds(corners);
 }
 
 std::string lower_case_ending(const fs::path& path) {
@@ -478,7 +470,7 @@ void Viewer::turn_environment(double dx, int height) {
 void Viewer::frame_all(double aspect) {
     Scene& shown = impl_->scene_;
     if (shown.objects.empty()) return;
-    shown.camera = framing(bounds_of(shown, assets()), aspect, kUsualYaw, kUsualPitch,
+    shown.camera = framing(detail::bounds_of(shown, assets()), aspect, kUsualYaw, kUsualPitch,
                            shown.camera.field_of_view);
 }
 
