@@ -15,6 +15,7 @@
 #include <mirrorball/scene_file.h>
 #include <mirrorball/tone_map.h>
 
+#include "core/name_table.h"
 #include "gl/check.h"
 #include "gl/framebuffer_guard.h"
 #include "hover.h"
@@ -35,8 +36,10 @@ constexpr double kUsualYaw = 25 * kPi / 180, kUsualPitch = 14 * kPi / 180;
 constexpr double kZoomStep = 1.12;
 constexpr double kMostStops = 20;
 
-constexpr std::pair<Showing, std::string_view> kShowings[] = {
-    {Showing::one, "one"}, {Showing::wipe, "wipe"}, {Showing::difference, "difference"}};
+constexpr detail::NameTable<Showing, 3> kShowings{"a way to show methods",
+                                                  {"one", "wipe", "difference"}};
+constexpr detail::NameTable<MapContent, 3> kContents{"what a map holds",
+                                                     {"environment", "glossy", "diffuse"}};
 
 Scene usual_scene() {
     Scene scene;
@@ -73,29 +76,15 @@ std::string size_text(const EnvironmentMap& map) {
 }  // namespace
 
 std::string_view name(Showing showing) {
-    for (const auto& [value, text] : kShowings)
-        if (value == showing) return text;
-    return {};
+    return kShowings.name(showing);
 }
 
-Showing parse_showing(std::string_view text) {
-    for (const auto& [value, name] : kShowings)
-        if (name == text) return value;
-    throw Error(Errc::usage, fmt::format("\"{}\" is no way to show methods; there are one, wipe "
-                                         "and difference",
-                                         text));
+Showing parse_showing(std::string_view name) {
+    return kShowings.parse(name);
 }
 
 std::string_view name(MapContent content) {
-    switch (content) {
-        case MapContent::environment:
-            return "environment";
-        case MapContent::glossy:
-            return "glossy";
-        case MapContent::diffuse:
-            return "diffuse";
-    }
-    return {};
+    return kContents.name(content);
 }
 
 class Viewer::Impl {
