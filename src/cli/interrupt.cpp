@@ -22,10 +22,12 @@ namespace mirrorball::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 
-constexpr timespec kPatience{.tv_sec = 1, .tv_nsec = 0};
+constexpr std::chrono::seconds kPatience{1};
 
 std::atomic<bool> interrupt_seen = false;
+std::atomic<bool> work_has_ended = false;
 // Guards the folder there is, and is held while it moves: a stop in between would leave half of it.
 std::mutex folder_mutex;
 const TemporaryFolder* current_folder = nullptr;
@@ -57,11 +59,25 @@ sigset_t signals_to_watch() {
     _exit(kInterruptedExitCode);
 }
 
+// Until a second signal or the end of patience. A program that was stopped and goes on, or that a
+// debugger or the leak sanitizer looked into, wakes early: that is neither.
+void wait_for_the_work(const sigset_t& signals) {
+    using std::chrono::nanoseconds, std::chrono::steady_clock;
+    const auto deadline = steady_clock::now() + kPatience;
+    for (nanoseconds left = kPatience; left.count() > 0; left = deadline - steady_clock::now()) {
+        const timespec time{.tv_sec = left / 1s, .tv_nsec = (left % 1s).count()};
+        if (sigtimedwait(&signals, nullptr, &time) >= 0) return;
+    }
+    // What is left then is the program's own end, however slow.
+    int number = 0;
+    if (work_has_ended) sigwait(&signals, &number);
+}
+
 void watch(sigset_t signals) {
     int number = 0;
     sigwait(&signals, &number);
     interrupt_seen = true;
-    sigtimedwait(&signals, nullptr, &kPatience);
+    wait_for_the_work(signals);
     end_now();
 }
 
@@ -100,6 +116,10 @@ void watch_for_interrupts() {
 
 bool interrupted() {
     return interrupt_seen;
+}
+
+void note_end_of_work() {
+    work_has_ended = true;
 }
 
 TemporaryFolder::TemporaryFolder(const fs::path& target) {

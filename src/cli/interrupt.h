@@ -16,6 +16,8 @@ inline constexpr int kInterruptedExitCode = 130;
 /// Called once, before any other thread is started.
 void watch_for_interrupts();
 [[nodiscard]] bool interrupted();
+/// From here on only a second signal cuts the program's end short.
+void note_end_of_work();
 
 /// A folder that is removed with all that is in it when this goes, or when the program is stopped.
 class TemporaryFolder {

@@ -65,17 +65,23 @@ int run(const std::vector<std::string>& arguments) {
     return run_on_threads(shared.threads, command.run);
 }
 
+int exit_code(const std::vector<std::string>& arguments) {
+    try {
+        return run(arguments);
+    } catch (...) {
+        const Failure failure = current_failure();
+        tell_failure(failure);
+        return failure.exit_code;
+    }
+}
+
 }  // namespace
 }  // namespace mirrorball::cli
 
 int main(int argc, char** argv) {
     using namespace mirrorball;
     cli::watch_for_interrupts();
-    try {
-        return cli::run({argv + 1, argv + argc});
-    } catch (...) {
-        const cli::Failure failure = cli::current_failure();
-        cli::tell_failure(failure);
-        return failure.exit_code;
-    }
+    const int code = cli::exit_code({argv + 1, argv + argc});
+    cli::note_end_of_work();
+    return code;
 }

@@ -129,6 +129,16 @@ TEST_F(Serve, EndsWhenInterrupted) {
     program_.reset();
 }
 
+// As a shell's Ctrl-Z and fg do, a debugger, or a leak sanitizer that stops all threads.
+TEST_F(Serve, EndsWellThoughStoppedMeanwhile) {
+    program_->send(SIGINT);
+    std::this_thread::sleep_for(20ms);
+    program_->send(SIGSTOP);
+    program_->send(SIGCONT);
+    EXPECT_EQ(program_->wait().code, 0);
+    program_.reset();
+}
+
 TEST(ServeUsage, SaysWhatIsWrong) {
     const TemporaryFolder folder;
     expect_refused({"serve", (folder / "none").string()}, 3, "is no folder that can be served");
