@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include <mirrorball/baked_maps.h>
 #include <mirrorball/bump.h>
 #include <mirrorball/environment_map.h>
 #include <mirrorball/image.h>
@@ -29,6 +30,9 @@ struct SceneAssets {
     std::map<std::string, std::shared_ptr<const BumpTexels>> bumps;
     /// Turned as the scene says; its intensity is applied when shading.
     EnvironmentMap environment;
+    /// What is looked up of the environment but itself; nothing: it is prefiltered. Of the Renderer
+    /// only.
+    std::shared_ptr<const BakedMaps> baked = nullptr;
 };
 
 struct AssetOptions {
