@@ -89,7 +89,6 @@ async function mirrorball_embed(element, maps) {
     scheduled = false;
     const milliseconds = draw(share);
     stage.dataset.drawn = Number(stage.dataset.drawn ?? 0) + 1;
-    stage.dataset.smooth = '';
     if (milliseconds > kSlow)
       share = Math.max(kLeastShare, share * Math.max(0.5, Math.sqrt(kSlow / milliseconds) * 0.9));
     else if (milliseconds < kQuick)
@@ -106,6 +105,7 @@ async function mirrorball_embed(element, maps) {
       resting = setTimeout(rest, 0);
   });
   function changed() {
+    stage.dataset.smooth = '';
     if (scheduled) return;
     scheduled = true;
     requestAnimationFrame(tick);

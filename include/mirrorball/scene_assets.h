@@ -33,6 +33,8 @@ struct SceneAssets {
     /// What is looked up of the environment but itself; nothing: it is prefiltered. Of the Renderer
     /// only.
     std::shared_ptr<const BakedMaps> baked = nullptr;
+    /// DfgTable::image(), if it was made beforehand; likewise.
+    std::shared_ptr<const Image> dfg = nullptr;
 };
 
 struct AssetOptions {

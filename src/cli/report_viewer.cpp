@@ -14,6 +14,7 @@
 #include "core/frontal_view.h"
 #include "core/parallel.h"
 #include "html.h"
+#include "interrupt.h"
 #include "io/file.h"
 
 namespace mirrorball::cli {
@@ -54,6 +55,8 @@ const char* const kStyle = R"(<style>
 @media (max-width: 760px) {
   .live { grid-template-columns: minmax(0, 1fr); }
   .stage { height: min(100vw, 60vh); }
+  .live fieldset { grid-template-columns: 1fr 1fr; gap: 14px 16px; }
+  .live p { grid-column: span 2; }
 }
 @media print { .live form, .stage button { display: none; } }
 </style>
@@ -143,12 +146,14 @@ void write_viewer_maps(const Bake& bake, const std::filesystem::path& folder) {
     Json files;
     const std::filesystem::path passing = folder / "viewer.ktx2";
     for (const auto& [name, map] : viewer_maps(bake)) {
+        stop_if_interrupted();
         MapWriteOptions options;
         options.format = TexelFormat::rgb9e5;
         write_map(passing.string(), map, options);
         files[name] = base64(contents(passing));
     }
     std::filesystem::remove(passing);
+    files["dfg"] = base64(contents(folder / bake.dfg_file.file));
     std::vector<double> roughnesses;
     for (const LevelFacts& facts : bake.specular.facts)
         roughnesses.push_back(facts.lobe->parameter);

@@ -1,8 +1,13 @@
-// What the viewer in other pages calls (web/embed.js): one object, lit by maps that were baked, as few
-// functions as that takes, and none that reads what bake does not write.
-#include <map>
+// What the viewer in other pages calls (web/embed.js): one object, lit by maps that were baked. Less
+// than Viewer has, so that the script stays small: of files it knows KTX2, and no scenes or meshes.
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <emscripten/emscripten.h>
@@ -28,9 +33,12 @@ constexpr int kSampleCount = 8;
 constexpr double kZoomStep = 1.12, kNearest = 1.6, kFarthest = 30;
 const Vec3d kPlastic(0.05, 0.20, 0.45);  // as the report's ball of plastic
 
-EnvironmentMap decoded(const std::string& name, std::span<const std::byte> bytes) {
+FileContents decoded(const std::string& name, std::span<const std::byte> bytes) {
     detail::InputFile file(name, bytes);
-    FileContents contents = detail::kKtx2.read(file, {});
+    return detail::kKtx2.read(file, {});
+}
+
+EnvironmentMap cube_of(const std::string& name, FileContents contents) {
     EnvironmentMap map{Projection::cube, default_axes(Projection::cube), {}};
     for (std::vector<Image>& faces : contents.levels) {
         if (faces.size() != 6)
@@ -80,9 +88,11 @@ Transform fitted(const Mesh& mesh) {
 
 class Embedded {
   public:
-    Embedded(EnvironmentMap environment, std::vector<EnvironmentMap> others, double exposure)
+    Embedded(EnvironmentMap environment, std::vector<EnvironmentMap> others,
+             std::shared_ptr<const Image> dfg, double exposure)
         : exposure_(exposure) {
         assets_.environment = std::move(environment);
+        assets_.dfg = std::move(dfg);
         // A mirror is the sharpest level of GGX.
         EnvironmentMap mirror = assets_.environment;
         mirror.levels.resize(1);
@@ -178,7 +188,9 @@ class Embedded {
 };
 
 // One to a module: a page that shows two loads it twice.
-std::map<std::string, EnvironmentMap> taken;
+std::optional<EnvironmentMap> environment;
+std::vector<EnvironmentMap> prefiltered;
+std::shared_ptr<const Image> dfg;
 std::optional<Embedded> embedded;
 
 // Empty, or why it failed.
@@ -201,23 +213,26 @@ extern "C" {
 
 using namespace mirrorball;
 
-/// A file that bake wrote, in this module's memory.
+/// A file that bake wrote, in this module's memory: "environment", "dfg", or a prefiltered map.
 EMSCRIPTEN_KEEPALIVE const char* mirrorball_take(const char* name, const std::byte* bytes,
                                                  std::size_t count) {
-    return attempt([&] { taken[name] = decoded(name, {bytes, count}); });
+    return attempt([&] {
+        const std::string_view what = name;
+        FileContents contents = decoded(name, {bytes, count});
+        if (what == "environment")
+            environment = cube_of(name, std::move(contents));
+        else if (what == "dfg")
+            dfg = std::make_shared<const Image>(std::move(contents.levels.at(0).at(0)));
+        else
+            prefiltered.push_back(cube_of(name, std::move(contents)));
+    });
 }
 
-/// With what was taken: "environment", and others in any number. \pre the context is current
+/// With what was taken. \pre the context is current
 EMSCRIPTEN_KEEPALIVE const char* mirrorball_open(double exposure) {
     return attempt([&] {
-        EnvironmentMap environment = std::move(taken["environment"]);
-        taken.erase("environment");
-        if (environment.levels.empty())
-            throw Error(Errc::usage, "there is no map of the environment");
-        std::vector<EnvironmentMap> others;
-        for (auto& [name, map] : taken) others.push_back(std::move(map));
-        taken.clear();
-        embedded.emplace(std::move(environment), std::move(others), exposure);
+        if (!environment) throw Error(Errc::usage, "there is no map of the environment");
+        embedded.emplace(std::move(*environment), std::move(prefiltered), std::move(dfg), exposure);
     });
 }
 
