@@ -20,7 +20,7 @@ async function mirrorball_embed(element, maps) {
 
   const module = await load_mirrorball_embed();
   const handle = module.GL.createContext(canvas, { majorVersion: 2, minorVersion: 0, alpha: false,
-    depth: false, stencil: false, antialias: false, enableExtensionsByDefault: true });
+    depth: true, stencil: false, antialias: false, enableExtensionsByDefault: true });
   if (!handle) throw new Error('This browser has no WebGL2, or it is switched off.');
   module.GL.makeContextCurrent(handle);
   const gl = module.GL.currentContext.GLctx;

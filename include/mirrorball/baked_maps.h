@@ -1,5 +1,5 @@
-// BakedMaps: maps of an environment that were prefiltered beforehand, as files have them, to look up
-// instead of prefiltering it again.
+// BakedMaps: maps of an environment that were prefiltered beforehand, as files have them, to look
+// up instead of prefiltering it again.
 #pragma once
 
 #include <vector>
@@ -18,8 +18,8 @@ class BakedMaps {
 
     /// In the place of LobeFilter. The level of that lobe, or, as a renderer's trilinear filter has
     /// it, what lies between the two next to it: in proportion to GGX's roughness, to the logarithm
-    /// of a cosine lobe's exponent. Beyond the sharpest and the widest level it is that one. A level
-    /// of the target's shape is given as it is, others resampled. A mirror's level is GGX of
+    /// of a cosine lobe's exponent. Beyond the sharpest and the widest level it is that one. A
+    /// level of the target's shape is given as it is, others resampled. A mirror's level is GGX of
     /// roughness 0 as well.
     /// \throws Error(Errc::usage) naming the lobe if no level is of its kind
     [[nodiscard]] EnvironmentMap operator()(const PrefilterTarget& target) const;

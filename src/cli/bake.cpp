@@ -201,8 +201,10 @@ Command bake_command(Shared& shared) {
         "dfg.ktx2 (split sum: scale, bias, sheen), fresnel.ktx2 (1-D), "
         "irradiance-sh.json (nine coefficients), bake.json (all figures) and index.html with its "
         "pictures. All of them appear together at the end, or none.",
-        "Where the page for browsers is built (make web) or installed, index.html has a ball to turn, "
-        "lit by what was baked, which viewer.js draws and maps.js lights; several results share one "
+        "Where the page for browsers is built (make web) or installed, index.html has a ball to "
+        "turn, "
+        "lit by what was baked, which viewer.js draws and maps.js lights; several results share "
+        "one "
         "viewer.js beside them. --no-viewer leaves it out.",
         kBatchNote};
     command.examples = {"mirrorball bake studio.hdr -o studio",

@@ -29,8 +29,8 @@ struct BakeOptions {
     Fresnel fresnel = Fresnel::dielectric(1.5);  ///< of the 1-D map
     TexelFormat format = TexelFormat::rgba16f;
     bool no_viewer = false;
-    /// The script of the report's viewer, if there is to be one; and whether each report has a copy,
-    /// or those of one folder share one.
+    /// The script of the report's viewer, if there is to be one; and whether each report has a
+    /// copy, or those of one folder share one.
     std::filesystem::path viewer_script = {};
     bool shared_viewer = false;
 };

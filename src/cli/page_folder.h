@@ -7,8 +7,8 @@
 
 namespace mirrorball::cli {
 
-/// The page's folder with this file in it to be read, as seen from the program: where it is installed, and where
-/// it was built; or nothing.
+/// The page's folder with this file in it to be read, as seen from the program: where it is
+/// installed, and where it was built; or nothing.
 [[nodiscard]] std::optional<std::filesystem::path> page_folder_with(std::string_view file);
 
 }  // namespace mirrorball::cli

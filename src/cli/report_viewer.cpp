@@ -1,5 +1,6 @@
 // The live viewer in the report: a still picture that gives way to it, its controls, and what it
-// reads. Pages that are opened as files may load scripts and nothing else, so that the maps are one.
+// reads. Pages that are opened as files may load scripts and nothing else, so that the maps are
+// one.
 #include <algorithm>
 #include <cmath>
 
@@ -103,7 +104,8 @@ std::string base64(const std::string& bytes) {
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         unsigned bits = 0;
         for (std::size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+            bits =
+                bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
         for (int digit = 3; digit >= 0; --digit) text += kDigits[bits >> (6 * digit) & 63];
     }
     const std::size_t padding = (3 - bytes.size() % 3) % 3;
@@ -119,7 +121,8 @@ std::string contents(const std::filesystem::path& path) {
 
 EnvironmentMap one_level(const EnvironmentMap& map, int level, int size) {
     const EnvironmentMap one{map.projection, map.axes, {map.levels[level]}};
-    EnvironmentMap result = resample(one, map.projection, std::min(size, map.width(level)), map.axes);
+    EnvironmentMap result =
+        resample(one, map.projection, std::min(size, map.width(level)), map.axes);
     result.levels[0].lobe = one.levels[0].lobe;
     return result;
 }
@@ -157,15 +160,17 @@ void write_viewer_maps(const Bake& bake, const std::filesystem::path& folder) {
     std::vector<double> roughnesses;
     for (const LevelFacts& facts : bake.specular.facts)
         roughnesses.push_back(facts.lobe->parameter);
-    write_text(folder / kMaps,
-               "// What the page's viewer looks up: the maps beside it, reduced, as KTX2 in base64.\n"
-               "var mirrorball_maps = " +
-                   Json{{"exposure", bake.exposure}, {"roughnesses", roughnesses}, {"files", files}}
-                       .dump(0) +
-                   ";\n");
+    write_text(
+        folder / kMaps,
+        "// What the page's viewer looks up: the maps beside it, reduced, as KTX2 in base64.\n"
+        "var mirrorball_maps = " +
+            Json{{"exposure", bake.exposure}, {"roughnesses", roughnesses}, {"files", files}}.dump(
+                0) +
+            ";\n");
 }
 
-// Along the ray through a point of the picture, from -1 to 1 upwards and to the right by its height.
+// Along the ray through a point of the picture, from -1 to 1 upwards and to the right by its
+// height.
 Vec3d seen(const EnvironmentMap& environment, double x, double y) {
     const double slope = std::tan(detail::kFrontalField / 2);
     const Vec3d eye(0, 0, detail::kFrontalDistance);
@@ -187,9 +192,9 @@ void write_still(const Bake& bake, const std::filesystem::path& folder) {
             for (int i = 0; i < kStillSamples * kStillSamples; ++i) {
                 const double right = x + (i % kStillSamples + 0.5) / kStillSamples;
                 const double down = y + (i / kStillSamples + 0.5) / kStillSamples;
-                const Vec3d light = seen(bake.environment.map,
-                                         (2 * right - kStillWidth) / kStillHeight,
-                                         1 - 2 * down / kStillHeight);
+                const Vec3d light =
+                    seen(bake.environment.map, (2 * right - kStillWidth) / kStillHeight,
+                         1 - 2 * down / kStillHeight);
                 sum += tone_mapped(Vec3f(light), bake.exposure, ToneMap::film);
             }
             image.set_rgb(x, y, sum / static_cast<float>(kStillSamples * kStillSamples));
@@ -206,7 +211,8 @@ std::string slider(const char* name, const char* label, double least, double mos
                    double value, const char* shown, bool hidden) {
     return fmt::format(
         "<label{7}>{1} <output data-of=\"{0}\">{6}</output><input type=\"range\" name=\"{0}\" "
-        "min=\"{2:g}\" max=\"{3:g}\" step=\"{4:g}\" value=\"{5:g}\" autocomplete=\"off\"></label>\n",
+        "min=\"{2:g}\" max=\"{3:g}\" step=\"{4:g}\" value=\"{5:g}\" "
+        "autocomplete=\"off\"></label>\n",
         name, label, least, most, step, value, shown, hidden ? " hidden" : "");
 }
 
@@ -216,8 +222,7 @@ std::string controls(const Bake& bake) {
         exponents += fmt::format("<option>{:g}</option>", lobe.parameter);
     return "<form autocomplete=\"off\"><fieldset disabled>\n<label>Object<select name=\"mesh\">" +
            choice("sphere", "Ball") + choice("torus", "Torus") + choice("teapot", "Teapot") +
-           choice("cube", "Cube") +
-           "</select></label>\n<label>Material<select name=\"material\">" +
+           choice("cube", "Cube") + "</select></label>\n<label>Material<select name=\"material\">" +
            choice("mirror", "Mirror") + choice("glossy", "Glossy (GGX)") +
            choice("phong", "Glossy (Phong)") + choice("matte", "Matte") +
            choice("plastic", "Plastic") + choice("gold", "Gold") + choice("copper", "Copper") +
@@ -250,9 +255,10 @@ std::string viewer_section(const Bake& bake) {
            "<h2>Turn it</h2>\n<p>An object in the environment, lit by the maps of this page and "
            "nothing else: what a renderer will make of them.</p>\n<div class=\"live\"><div "
            "class=\"stage\">" +
-           fmt::format("<img src=\"{}/{}\" alt=\"A mirror ball in the environment, seen from the "
-                       "front\"><button type=\"button\" hidden>Start</button></div>\n",
-                       kPictureFolder, kStill) +
+           fmt::format(
+               "<img src=\"{}/{}\" alt=\"A mirror ball in the environment, seen from the "
+               "front\"><button type=\"button\" hidden>Start</button></div>\n",
+               kPictureFolder, kStill) +
            controls(bake) + "</div>\n" + fmt::format(fmt::runtime(kStart), script, kMaps) +
            "</section>\n";
 }

@@ -1,5 +1,5 @@
-// A ball of radius 1 about the origin as an eye on +z sees it that looks ahead, at -z: what a report's
-// viewer shows first, and the still picture that stands there until it does.
+// A ball of radius 1 about the origin as an eye on +z sees it that looks ahead, at -z: what a
+// report's viewer shows first, and the still picture that stands there until it does.
 #pragma once
 
 namespace mirrorball::detail {

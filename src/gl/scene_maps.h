@@ -18,9 +18,9 @@ namespace mirrorball::gl {
 
 class SceneMaps {
   public:
-    /// Of the filter's source; what is baked, if anything, stands for the filter. `size` is the edge of a cube's face; other maps are as fine as such
-    /// a cube. Maps of every roughness are made if they are asked for and the method looks up at
-    /// each pixel.
+    /// Of the filter's source; what is baked, if anything, stands for the filter. `size` is the
+    /// edge of a cube's face; other maps are as fine as such a cube. Maps of every roughness are
+    /// made if they are asked for and the method looks up at each pixel.
     SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough = false,
               std::shared_ptr<const BakedMaps> baked = nullptr);
 

@@ -69,9 +69,8 @@ BakedMaps::BakedMaps(const std::vector<EnvironmentMap>& maps) {
 const BakedMaps::Levels& BakedMaps::levels_for(const Lobe& lobe) const {
     for (const Levels& levels : kinds_)
         if (kind_of(levels.front().lobe) == kind_of(lobe)) return levels;
-    throw Error(Errc::usage,
-                fmt::format("no map was baked for the lobe {} or others of its kind",
-                            to_string(lobe)));
+    throw Error(Errc::usage, fmt::format("no map was baked for the lobe {} or others of its kind",
+                                         to_string(lobe)));
 }
 
 EnvironmentMap BakedMaps::operator()(const PrefilterTarget& target) const {

@@ -1,5 +1,6 @@
-// What the viewer in other pages calls (web/embed.js): one object, lit by maps that were baked. Less
-// than Viewer has, so that the script stays small: of files it knows KTX2, and no scenes or meshes.
+// What the viewer in other pages calls (web/embed.js): one object, lit by maps that were baked.
+// Less than Viewer has, so that the script stays small: of files it knows KTX2, and no scenes or
+// meshes.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -137,29 +138,8 @@ class Embedded {
         changed_ = true;
     }
 
+    /// Into the canvas, which has a depth buffer.
     void draw(int width, int height) {
-        add_sample(width, height);
-        glViewport(0, 0, width, height);
-        glDisable(GL_DEPTH_TEST);
-        glDisable(GL_BLEND);
-        gl::Definitions definitions = {"SHOW ONE"};
-        if (picture_->is_encoded()) definitions.emplace_back("FIRST_ENCODED");
-        const gl::Program& program = programs_.get("full.vert", "show.frag", definitions);
-        program.use();
-        program.set("u_origin", Imath::V2f(0, 0));
-        picture_->bind_texture(0);
-        program.set("u_first", 0);
-        glBindVertexArray(nothing_.name());
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-        gl::check("showing the picture");
-    }
-    [[nodiscard]] bool is_smooth() const {
-        return picture_ && picture_->is_smooth(kSampleCount);
-    }
-
-  private:
-    void add_sample(int width, int height) {
-        const gl::FramebufferGuard guard;
         if (!picture_ || width != width_ || height != height_) {
             picture_.emplace(width, height);
             width_ = width, height_ = height;
@@ -167,7 +147,31 @@ class Embedded {
             picture_->start_again();
         }
         changed_ = false;
+        if (picture_->can_show_first(kSampleCount))
+            return picture_->show_first(*renderer_, scene_, {});
+        add_sample();
+        show_mean();
+    }
+    [[nodiscard]] bool is_smooth() const { return picture_ && picture_->is_smooth(kSampleCount); }
+
+  private:
+    void add_sample() {
+        const gl::FramebufferGuard guard;
         picture_->add(*renderer_, scene_, kSampleCount, programs_);
+    }
+
+    void show_mean() {
+        glViewport(0, 0, width_, height_);
+        glDisable(GL_DEPTH_TEST);
+        glDisable(GL_BLEND);
+        const gl::Program& program = programs_.get("full.vert", "show.frag", {"SHOW ONE"});
+        program.use();
+        program.set("u_origin", Imath::V2f(0, 0));
+        picture_->bind_texture(0);
+        program.set("u_first", 0);
+        glBindVertexArray(nothing_.name());
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        gl::check("showing the picture");
     }
 
     void adopt() {
@@ -257,5 +261,4 @@ EMSCRIPTEN_KEEPALIVE const char* mirrorball_draw(int width, int height) {
 EMSCRIPTEN_KEEPALIVE bool mirrorball_is_smooth() {
     return embedded->is_smooth();
 }
-
 }

@@ -85,8 +85,8 @@ Json maps_in(const std::string& script) {
     return Json::parse(script.substr(start, end + 1 - start));
 }
 
-// The largest difference of two levels, in shares of the texel's brightest channel: shared exponents
-// keep 9 bits of it.
+// The largest difference of two levels, in shares of the texel's brightest channel: shared
+// exponents keep 9 bits of it.
 double difference(const Level& a, const Level& b) {
     double most = 0;
     for (std::size_t face = 0; face < 6; ++face) {
@@ -146,8 +146,8 @@ TEST_F(ReportViewer, IsReducedToWhatAScreenShows) {
     EXPECT_EQ(read_map((folder_ / "map.ktx2").string()).map.width(), 256);
 }
 
-// Where there is no page, nothing that can be read, or it is not wanted, all is as it was before there
-// was a viewer.
+// Where there is no page, nothing that can be read, or it is not wanted, all is as it was before
+// there was a viewer.
 TEST_F(ReportViewer, IsNowhereElse) {
     must({sky_, "-o", out("a"), "--no-viewer"});
     fs::remove(page_ / "embed.js");

@@ -65,10 +65,10 @@ Scene sphere_of(const Material& material) {
 // Of colours that nothing in the environment has, so that none of it can come from there.
 std::shared_ptr<SceneAssets> assets_of_other_colours() {
     const auto assets = assets_in(smooth_environment());
-    assets->baked = std::make_shared<BakedMaps>(std::vector{
-        uniform(ggx(0.2), 8, {50, 0, 0}), uniform(ggx(0.6), 4, {0, 50, 0}),
-        uniform(phong(10), 4, {0, 0, 50}), uniform(phong(1000), 8, {0, 50, 50}),
-        uniform({Lobe::Kind::diffuse}, 4, {50 * static_cast<float>(kPi), 0, 0})});
+    assets->baked = std::make_shared<BakedMaps>(
+        std::vector{uniform(ggx(0.2), 8, {50, 0, 0}), uniform(ggx(0.6), 4, {0, 50, 0}),
+                    uniform(phong(10), 4, {0, 0, 50}), uniform(phong(1000), 8, {0, 50, 50}),
+                    uniform({Lobe::Kind::diffuse}, 4, {50 * static_cast<float>(kPi), 0, 0})});
     return assets;
 }
 
@@ -78,8 +78,7 @@ Vec3f middle(Renderer& renderer, const Material& material) {
 
 void expect_light(const Vec3f& light, const Vec3f& expected) {
     // Maps are stored as half floats: 11 bits.
-    EXPECT_LT((light - expected).length(), 50 * 0.001f)
-        << light << " and not " << expected;
+    EXPECT_LT((light - expected).length(), 50 * 0.001f) << light << " and not " << expected;
 }
 
 TEST_F(BakedMapsTest, WhatIsDrawnComesFromThem) {
@@ -145,8 +144,8 @@ TEST_F(BakedMapsTest, NewOnesTakeThePlaceOfTheOld) {
     Renderer renderer(first);
     expect_light(middle(renderer, glossy(ggx(0.6))), {0, 50, 0});
     const auto second = std::make_shared<SceneAssets>(*first);
-    second->baked = std::make_shared<BakedMaps>(std::vector{
-        uniform(ggx(0.6), 4, {0, 0, 25}), uniform({Lobe::Kind::diffuse}, 4, {})});
+    second->baked = std::make_shared<BakedMaps>(
+        std::vector{uniform(ggx(0.6), 4, {0, 0, 25}), uniform({Lobe::Kind::diffuse}, 4, {})});
     renderer.set_assets(second);
     expect_light(middle(renderer, glossy(ggx(0.6))), {0, 0, 25});
 }
