@@ -29,7 +29,7 @@ class ReportViewer : public testing::Test {
         Image sky(64, 32, 3);
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 64; ++x)
-                sky.set_rgb(x, y, Vec3f(1, x / 64.0f, y < 4 && x < 8 ? 50.0f : 0.1f));
+                sky.set_rgb(x, y, Vec3f(1, static_cast<float>(x) / 64, y < 4 && x < 8 ? 50.0f : 0.1f));
         sky_ = (folder_ / "sky.pfm").string();
         write_image(sky_, sky);
     }

@@ -19,7 +19,7 @@ mkdirSync(output, { recursive: true });
 const kArguments = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
   '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
-const kDesk = { width: 1280, height: 800 }, kPhone = { width: 390, height: 844 };
+const kSmall = { width: 900, height: 500 }, kDesk = { width: 1280, height: 800 }, kPhone = { width: 390, height: 844 };
 
 // The program finds the page that was built, and no other, beside itself.
 const folder = mkdtempSync(join(tmpdir(), 'mirrorball-report-'));
@@ -48,7 +48,7 @@ function four_walls() {
 }
 
 async function open(report, options = {}) {
-  const page = await browser.newPage({ viewport: kDesk, ...options });
+  const page = await browser.newPage({ viewport: kSmall, ...options });
   page.on('console', (message) => {
     if (message.type() === 'error') complaints.push(message.text());
   });
@@ -61,12 +61,12 @@ async function open(report, options = {}) {
 const painted = (page) => page.waitForFunction(() => {
   const { drawn, smooth } = document.querySelector('.stage').dataset;
   return drawn && smooth === drawn;
-}, null, { timeout: 20_000 });
+}, null, { timeout: 90_000 });
 async function start(page) {
   await page.locator('.stage').scrollIntoViewIfNeeded();
   await page.waitForFunction(
     () => ['live', 'failed'].includes(document.querySelector('.stage').dataset.state), null,
-    { timeout: 30_000 });
+    { timeout: 90_000 });
   const { state, said } = await page.locator('.stage').evaluate((stage) => ({
     state: stage.dataset.state, said: stage.querySelector('button').textContent }));
   assert.equal(state, 'live', said);
