@@ -28,9 +28,10 @@ class Batch : public testing::Test {
         return all;
     }
     std::vector<std::string> bake(std::vector<std::string> more) {
-        std::vector<std::string> all = {"bake", "--size",  "16", "--diffuse-size",
-                                        "8",    "--phong", "10", "--environment-size",
-                                        "16"};
+        // The same wherever the page for browsers is built or not.
+        std::vector<std::string> all = {
+            "bake", "--no-viewer",        "--size", "16", "--diffuse-size", "8", "--phong",
+            "10",   "--environment-size", "16"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
