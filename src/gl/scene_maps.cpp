@@ -74,12 +74,23 @@ void SceneMaps::make_glossy(const Lobe& lobe) {
     lobes_.push_back({lobe, 0});
 }
 
-void SceneMaps::set_lobes(std::span<const Lobe> lobes) {
+// And could be looked up in maps of every roughness.
+bool SceneMaps::takes_long(const Lobe& lobe) const {
+    return lobe.kind == Lobe::Kind::ggx && detail::looks_up_per_pixel(method_) &&
+           !filter_->is_quick(glossy_target(filter_->source(), lobe, projection_, axes_));
+}
+
+void SceneMaps::set_lobes(std::span<const Lobe> lobes, bool quick) {
     ++turn_;
     bool changed = false;
     for (const Lobe& lobe : lobes) {
         const std::size_t i = index_of(lobe);
         if (i == lobes_.size()) {
+            if (quick && takes_long(lobe)) {
+                changed = changed || maps_.rough.empty();
+                if (maps_.rough.empty()) make_rough();
+                continue;
+            }
             make_glossy(lobe);
             changed = true;
         }
@@ -135,11 +146,13 @@ void SceneMaps::look_from(const Axes& camera, const SceneEnvironment& environmen
 
 LookupMaps SceneMaps::lookup(const Material& material, const SceneEnvironment& environment) const {
     const Axes& axes = warped_ ? warped_->axes() : axes_;
+    const std::size_t lobe = index_of(material.lobe);
     return {method_,
             is_for_camera(method_) ? axes : turned(axes, environment),
             &shown(),
             &shown().diffuse,
-            index_of(material.lobe),
+            lobe,
+            material.glossy > 0 && lobe == lobes_.size(),
             mirror_alpha(size_),
             environment.intensity,
             environment.proxy,

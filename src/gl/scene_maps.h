@@ -26,8 +26,9 @@ class SceneMaps {
     SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough = false);
 
     /// Makes maps for the lobes that have none. Those of other lobes stay, up to some memory, for a
-    /// scene may come back to them; a lobe's map is the same whenever it is made.
-    void set_lobes(std::span<const Lobe> lobes);
+    /// scene may come back to them; a lobe's map is the same whenever it is made. `quick`: maps of
+    /// every roughness, which are made once, stand in for what would take long.
+    void set_lobes(std::span<const Lobe> lobes, bool quick = false);
 
     /// Re-makes maps that depend on where the camera looks in an environment that is turned so.
     void look_from(const Axes& camera, const SceneEnvironment& environment);
@@ -52,6 +53,7 @@ class SceneMaps {
     };
 
     void make_rough();
+    [[nodiscard]] bool takes_long(const Lobe& lobe) const;
     void make_glossy(const Lobe& lobe);
     bool forget_unused();
     [[nodiscard]] std::uint64_t unused_bytes() const;
