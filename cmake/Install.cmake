@@ -38,4 +38,7 @@ if(MIRRORBALL_BUILD_PROGRAM)
     add_custom_target(mirrorball_completion ALL DEPENDS ${completion})
     install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endif()
+# The page for browsers where `make web` has built it, for `serve` and for the reports of `bake`.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/web/page
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball OPTIONAL)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -16,7 +16,7 @@ skip() {
     exit 77
 }
 
-[ -f "$build/page/mirrorball.wasm" ] || skip "$build/page is not there (make web builds it)"
+[ -f "$build/page/mirrorball.wasm" ] && [ -f "$build/page/embed.js" ] || skip "$build/page is not there (make web builds it)"
 [ -x /usr/bin/chromium ] || skip 'there is no /usr/bin/chromium (the package chromium)'
 for tool in node npm; do
     command -v $tool >/dev/null 2>&1 || skip "there is no $tool (scripts/install-packages.sh web)"
@@ -36,4 +36,4 @@ fi
 
 here=$(pwd)
 MIRRORBALL_PAGE=$here/../page MIRRORBALL_PROGRAM=$program MIRRORBALL_OUTPUT=$here/pictures \
-    exec node --test --test-reporter=tap page_test.mjs
+    exec node --test --test-reporter=tap page_test.mjs report_test.mjs

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include <mirrorball/baked_maps.h>
 #include <mirrorball/bump.h>
 #include <mirrorball/environment_map.h>
 #include <mirrorball/image.h>
@@ -30,6 +31,11 @@ struct SceneAssets {
     /// As its file has it: the scene turns and scales it when it is drawn, by turned() and its
     /// intensity.
     EnvironmentMap environment;
+    /// What is looked up of the environment but itself; nothing: it is prefiltered. Of the Renderer
+    /// only.
+    std::shared_ptr<const BakedMaps> baked = nullptr;
+    /// DfgTable::image(), if it was made beforehand; likewise.
+    std::shared_ptr<const Image> dfg = nullptr;
 };
 
 struct AssetOptions {

@@ -13,6 +13,7 @@
 #include "batch.h"
 #include "chain.h"
 #include "interrupt.h"
+#include "page_folder.h"
 #include "targets.h"
 #include "verbs.h"
 
@@ -21,6 +22,7 @@ namespace {
 
 constexpr std::size_t kMostPhong = 6;
 constexpr int kDfgSize = 128;
+constexpr const char* kViewerScript = "embed.js";  // in the page's folder
 
 std::vector<Lobe> parse_exponents(const std::string& text) {
     std::set<double, std::greater<>> exponents;  // the sharpest first: it needs the largest level
@@ -123,11 +125,18 @@ Json run_one(const Job& job, const BakeOptions& options, std::shared_ptr<const D
     watch.lap();
     write_pictures(bake, folder.path(), bar.stage("Pictures", 0.2));
     bake.timings.push_back({"pictures", watch.lap()});
+    if (!options.viewer_script.empty()) {
+        write_viewer(bake, folder.path());
+        bake.timings.push_back({"viewer", watch.lap()});
+    }
     write_json(folder.path() / "irradiance-sh.json", harmonics_json(bake));
     write_json(folder.path() / "bake.json", bake_json(bake));
     write_text(folder.path() / "index.html", report_html(bake));
     stop_if_interrupted();
     folder.move_to(job.output);
+    if (options.shared_viewer) {
+        write_viewer_script(options, std::filesystem::path(job.output).parent_path());
+    }
     bar.hide();
     for (const BakedMap* baked : {&bake.environment, &bake.specular, &bake.phong, &bake.diffuse}) {
         tell_clipped(baked->file, baked->written, shared);
@@ -136,7 +145,10 @@ Json run_one(const Job& job, const BakeOptions& options, std::shared_ptr<const D
     return bake_json(bake);
 }
 
-int run(const BakeOptions& options, const Shared& shared) {
+int run(BakeOptions options, const Shared& shared) {
+    if (const auto page = page_folder_with(kViewerScript); page && !options.no_viewer)
+        options.viewer_script = *page / kViewerScript;
+    options.shared_viewer = !options.viewer_script.empty() && options.sources.size() > 1;
     Plans plans(bake_targets(options), options.prefilter);
     check_memory(bytes_of_results(options, plans), "the result", shared);
     const Batch batch = options.sources.size() == 1
@@ -179,7 +191,8 @@ Command bake_command(Shared& shared) {
         {"--fresnel", "SURFACE",
          "of the Fresnel map: index=N, metal=NAME, n=N,k=K or f0=F; under ,coat=N [index=1.5]",
          parsed(options->fresnel, parse_fresnel), surface_choices()},
-        ktx2_format_option(options->format)};
+        ktx2_format_option(options->format),
+        {"--no-viewer", "", "leave out the live viewer on the page", flag(options->no_viewer)}};
     add_input_options(command, options->input);
     add_shared_options(command, shared);
     command.notes = {
@@ -188,6 +201,11 @@ Command bake_command(Shared& shared) {
         "dfg.ktx2 (split sum: scale, bias, sheen), fresnel.ktx2 (1-D), "
         "irradiance-sh.json (nine coefficients), bake.json (all figures) and index.html with its "
         "pictures. All of them appear together at the end, or none.",
+        "Where the page for browsers is built (make web) or installed, index.html has a ball to "
+        "turn, "
+        "lit by what was baked, which viewer.js draws and maps.js lights; several results share "
+        "one "
+        "viewer.js beside them. --no-viewer leaves it out.",
         kBatchNote};
     command.examples = {"mirrorball bake studio.hdr -o studio",
                         "mirrorball bake builtin:sunset -o sunset --size 512 --mapping filament",

@@ -28,6 +28,11 @@ struct BakeOptions {
     PrefilterOptions prefilter;
     Fresnel fresnel = Fresnel::dielectric(1.5);  ///< of the 1-D map
     TexelFormat format = TexelFormat::rgba16f;
+    bool no_viewer = false;
+    /// The script of the report's viewer, if there is to be one; and whether each report has a
+    /// copy, or those of one folder share one.
+    std::filesystem::path viewer_script = {};
+    bool shared_viewer = false;
 };
 
 /// One level of a result, as figures.
@@ -112,6 +117,14 @@ void write_pictures(const Bake& bake, const std::filesystem::path& folder,
 /// bake.json and irradiance-sh.json (bake_json.cpp).
 [[nodiscard]] Json bake_json(const Bake& bake);
 [[nodiscard]] Json harmonics_json(const Bake& bake);
+
+/// What the report's viewer reads and shows, and its script where it is not shared
+/// (report_viewer.cpp). Nothing without options.viewer_script.
+void write_viewer(const Bake& bake, const std::filesystem::path& folder);
+/// Its section of the report; empty likewise.
+[[nodiscard]] std::string viewer_section(const Bake& bake);
+/// The script for several reports.
+void write_viewer_script(const BakeOptions& options, const std::filesystem::path& folder);
 
 /// index.html (report.cpp).
 [[nodiscard]] std::string report_html(const Bake& bake);

@@ -351,7 +351,7 @@ std::string report_html(const Bake& bake) {
         "<p class=\"lead\">Baked for rendering from {2}.</p>\n{3}</header>\n",
         escaped(title), picture("equirect.png", "Panorama of the environment"),
         shape_text(bake.source.map), tiles(bake));
-    std::string html = projections_section();
+    std::string html = viewer_section(bake) + projections_section();
     html += chain_section(
         bake.specular, "Specular, one level per roughness", "specular",
         fmt::format(

@@ -9,6 +9,7 @@
 
 #include "interrupt.h"
 #include "output.h"
+#include "page_folder.h"
 #include "static_server.h"
 #include "verbs.h"
 
@@ -22,14 +23,8 @@ struct Options {
     int port = 8000;
 };
 
-// Where the page is, seen from the program: installed, and as it was built.
 fs::path page_folder() {
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    for (const char* place : {"../share/mirrorball/page", "../web/page"}) {
-        const fs::path folder = program.parent_path() / place;
-        if (fs::exists(folder / "index.html", error)) return folder;
-    }
+    if (const auto folder = page_folder_with("index.html")) return *folder;
     throw Error(Errc::usage,
                 "DIR is missing, and the page is not where the program looks for it; `make web` "
                 "builds it in build/web/page");

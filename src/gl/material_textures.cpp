@@ -18,6 +18,7 @@ void MaterialTextures::set_assets(std::shared_ptr<const SceneAssets> assets) {
     std::erase_if(pictures_, [&](const auto& picture) {
         return !is_same(assets_->pictures, assets->pictures, picture.first);
     });
+    if (assets_->dfg != assets->dfg) dfg_.reset();
     assets_ = std::move(assets);
 }
 
@@ -39,7 +40,7 @@ const Texture& MaterialTextures::fresnel(const Fresnel& fresnel) {
 }
 
 const Texture& MaterialTextures::dfg() {
-    if (!dfg_) dfg_ = upload(DfgTable(kDfgSize, kDfgSize).image());
+    if (!dfg_) dfg_ = upload(assets_->dfg ? *assets_->dfg : DfgTable(kDfgSize, kDfgSize).image());
     return *dfg_;
 }
 

@@ -141,7 +141,7 @@ class Renderer::Impl {
 };
 
 void Renderer::Impl::set_assets(std::shared_ptr<const SceneAssets> assets) {
-    if (!is_same(assets_->environment, assets->environment)) {
+    if (!is_same(assets_->environment, assets->environment) || assets_->baked != assets->baked) {
         maps_ = nullptr;
         kept_.clear();
         filter_.reset();
@@ -162,7 +162,8 @@ SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method, bool quic
             filter_ = std::make_shared<LobeFilter>(
                 std::shared_ptr<const EnvironmentMap>(assets_, &assets_->environment));
         }
-        kept_.push_front({key, SceneMaps(filter_, key.method, key.size, key.rough)});
+        kept_.push_front(
+            {key, SceneMaps(filter_, key.method, key.size, key.rough, assets_->baked)});
     }
     kept_.front().maps.set_lobes(lobes_of(scene), quick);
     return kept_.front().maps;

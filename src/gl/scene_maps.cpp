@@ -39,8 +39,10 @@ Texture uploaded(const EnvironmentMap& map, Method method) {
 
 }  // namespace
 
-SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough)
+SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough,
+                     std::shared_ptr<const BakedMaps> baked)
     : filter_(std::move(filter)),
+      baked_(std::move(baked)),
       method_(method),
       projection_(is_warped(method) ? Projection::cube : projection_of(method)),
       size_(size),
@@ -52,22 +54,25 @@ SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size
     const EnvironmentMap mirror = make_mirror_map(environment, projection_, map_size, axes_);
     maps_.mirror = uploaded(mirror, method);
     if (method == Method::cube_split) maps_.mirror_faces = upload_faces(mirror);
-    maps_.diffuse = uploaded((*filter_)(diffuse_target(projection_, axes_)), method);
+    maps_.diffuse = uploaded(filtered(diffuse_target(projection_, axes_)), method);
     // A roughness for each pixel takes a lookup for each.
     if (rough && detail::looks_up_per_pixel(method)) make_rough();
     if (is_warped(method)) warped_.emplace(method, maps_);
 }
 
+EnvironmentMap SceneMaps::filtered(const PrefilterTarget& target) const {
+    return baked_ ? (*baked_)(target) : (*filter_)(target);
+}
+
 void SceneMaps::make_rough() {
     std::vector<EnvironmentMap> levels;
     for (const PrefilterTarget& target : rough_targets(filter_->source(), projection_, axes_))
-        levels.push_back((*filter_)(target));
+        levels.push_back(filtered(target));
     maps_.rough = uploaded(levels_of(levels), method_);
 }
 
 void SceneMaps::make_glossy(const Lobe& lobe) {
-    const EnvironmentMap map =
-        (*filter_)(glossy_target(filter_->source(), lobe, projection_, axes_));
+    const EnvironmentMap map = filtered(glossy_target(filter_->source(), lobe, projection_, axes_));
     Texture texture = uploaded(map, method_);
     if (method_ == Method::cube_split) maps_.glossy_faces.push_back(upload_faces(map));
     maps_.glossy.push_back(std::move(texture));

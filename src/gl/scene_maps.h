@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <mirrorball/baked_maps.h>
 #include <mirrorball/prefilter.h>
 #include <mirrorball/scene.h>
 
@@ -20,10 +21,11 @@ namespace mirrorball::gl {
 /// costs nothing but maps that are made for the camera.
 class SceneMaps {
   public:
-    /// Of the filter's source. `size` is the edge of a cube's face; other maps are as fine as such
-    /// a cube. Maps of every roughness are made if they are asked for and the method looks up at
-    /// each pixel.
-    SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough = false);
+    /// Of the filter's source; what is baked, if anything, stands for the filter. `size` is the
+    /// edge of a cube's face; other maps are as fine as such a cube. Maps of every roughness are
+    /// made if they are asked for and the method looks up at each pixel.
+    SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough = false,
+              std::shared_ptr<const BakedMaps> baked = nullptr);
 
     /// Makes maps for the lobes that have none. Those of other lobes stay, up to some memory, for a
     /// scene may come back to them; a lobe's map is the same whenever it is made. `quick`: maps of
@@ -52,6 +54,7 @@ class SceneMaps {
         std::uint64_t used;  // the last turn in which it was
     };
 
+    [[nodiscard]] EnvironmentMap filtered(const PrefilterTarget& target) const;
     void make_rough();
     [[nodiscard]] bool takes_long(const Lobe& lobe) const;
     void make_glossy(const Lobe& lobe);
@@ -60,6 +63,7 @@ class SceneMaps {
     [[nodiscard]] std::size_t index_of(const Lobe& lobe) const;
 
     std::shared_ptr<LobeFilter> filter_;
+    std::shared_ptr<const BakedMaps> baked_;
     Method method_;
     Projection projection_;  // of maps_
     int size_;
