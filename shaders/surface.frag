@@ -1,8 +1,9 @@
 // What a surface sends to the eye: the equations at Material in include/mirrorball/scene.h.
 //
 // Defined by the renderer: METHOD; HAS_MIRROR, HAS_GLOSSY, HAS_DIFFUSE, HAS_TRANSMISSION,
-// HAS_EMISSION, HAS_BASE_COLOR_MAP, HAS_FLOOR, HAS_BUMP (bump.glsl); COUPLING; PROXY; DISPLAY,
-// HALF_FLOATS or RADIANCE: how it is written.
+// HAS_EMISSION, HAS_BASE_COLOR_MAP, HAS_FLOOR, HAS_BUMP (bump.glsl); HAS_ROUGH_MAP, and GLOSSY_BY_CHAIN
+// where there is no map of the lobe's own; COUPLING; PROXY; DISPLAY, HALF_FLOATS or RADIANCE: how it
+// is written.
 #include "methods.glsl"
 #include "normal.glsl"
 
@@ -99,6 +100,9 @@ vec3 glossy_layer(vec3 r, float added) {
 #ifdef HAS_ROUGH_MAP
     float alpha2 = u_roughness * u_roughness * u_roughness * u_roughness;
     vec3 rougher = rough_light(r, sqrt(min(1.0, alpha2 + added)));
+#ifdef GLOSSY_BY_CHAIN
+    return rougher;
+#endif
     // The exact lobe goes over into the chain's while the two are still much the same.
     return mix(glossy_light(r), rougher, clamp(10.0 * added / max(alpha2, 1e-10), 0.0, 1.0));
 #else

@@ -165,8 +165,12 @@ class Viewer {
     /// by a copy of the picture; nothing around it is touched.
     /// \throws Error as Renderer does; the scene is then the last that could be drawn
     void draw(int width, int height, int left = 0, int bottom = 0);
-    /// Has the picture all its samples?
+    /// Has the picture all the samples that it gets while nothing changes?
     [[nodiscard]] bool is_smooth() const;
+    /// As long as something is held, a slider or the scene, pictures stay the first, quickest ones:
+    /// of GGX that is too sharp to be prefiltered within a frame they show an approximation
+    /// (DrawOptions::quick).
+    void hold(bool held);
 
     /// Of the pixel in column x and row y from the top left.
     [[nodiscard]] Hover hover(double x, double y, int width, int height) const;

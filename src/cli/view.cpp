@@ -156,8 +156,8 @@ Command view_command(Shared& shared) {
         {"--panel", "", "controls and maps, too, where --frames or --script is given",
          flag(options->panel)},
         {"--script", "FILE",
-         "steps, one before each frame: resize W H, drop FILE, key KEY, drag DX DY [FRAMES], wait "
-         "FRAMES",
+         "steps, one before each frame: resize W H, drop FILE, key KEY, drag DX DY [FRAMES], "
+         "lobe KIND FROM TO FRAMES, wait FRAMES",
          text(options->script), file_choices()},
         {"--scale", "S", "of text and controls [as the screen says]",
          real_number(options->scale, 0.5, 4)}};

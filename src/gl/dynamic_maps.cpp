@@ -67,7 +67,7 @@ void ObjectMaps::make_shown(const Axes& camera) {
 // is no GGX chain: made for each picture, it would cost more than all else.
 LookupMaps ObjectMaps::lookup_cubes(int depth) const {
     const MapTextures& textures = cubes(depth);
-    return {Method::cube, cube_axes(), &textures, &textures.diffuse, 0, 0, 1, {}, Vec3d(0)};
+    return {Method::cube, cube_axes(), &textures, &textures.diffuse, 0, false, 0, 1, {}, Vec3d(0)};
 }
 
 LookupMaps ObjectMaps::lookup_shown() const {

@@ -35,6 +35,7 @@ struct LookupMaps {
     const MapTextures* textures = nullptr;
     const Texture* diffuse = nullptr;
     std::size_t lobe = 0;     ///< the index of the material's own, if it has one
+    bool by_chain = false;    ///< its lobe has no map: it is looked up in textures->rough
     double mirror_alpha = 0;  ///< for rough_place(), if there are rough maps
     double intensity = 1;     ///< that the maps' light is multiplied by
     Proxy proxy;              ///< for the places that the maps show

@@ -164,7 +164,7 @@ void add_bump_definitions(Definitions& definitions, const BumpMap& bump, const L
     if (bump.horizon) definitions.emplace_back("HAS_HORIZON");
     if (bump.filter == BumpFilter::none) definitions.emplace_back("FINEST_ONLY");
     // Maps of dynamic objects have no chain: there the mean is all that is shown.
-    if (bump.filter == BumpFilter::variance && !maps.textures->rough.empty())
+    if (bump.filter == BumpFilter::variance && !maps.textures->rough.empty() && !maps.by_chain)
         definitions.emplace_back("HAS_ROUGH_MAP");
 }
 
@@ -185,6 +185,10 @@ Definitions definitions_for(const Scene& scene, const Material& material, const 
     add_output(scene, shot, definitions);
     if (material.mirror > 0) definitions.emplace_back("HAS_MIRROR");
     if (material.glossy > 0) definitions.emplace_back("HAS_GLOSSY");
+    if (maps.by_chain) {
+        definitions.emplace_back("HAS_ROUGH_MAP");
+        definitions.emplace_back("GLOSSY_BY_CHAIN");
+    }
     if (material.diffuse > 0) definitions.emplace_back("HAS_DIFFUSE");
     if (material.transmission > 0) definitions.emplace_back("HAS_TRANSMISSION");
     if (material.emission > 0) definitions.emplace_back("HAS_EMISSION");
@@ -430,7 +434,8 @@ void Painter::set_maps(const Program& program, const Material& material,
     maps.diffuse->bind(kDiffuseUnit);
     if (maps.method != Method::cube_split) {
         maps.textures->mirror.bind(kMirrorUnit);
-        if (material.glossy > 0) maps.textures->glossy[maps.lobe].bind(kGlossyUnit);
+        if (material.glossy > 0 && !maps.by_chain)
+            maps.textures->glossy[maps.lobe].bind(kGlossyUnit);
     }
     const Texture& rough = maps.textures->rough;
     if (!rough.empty()) {
@@ -528,7 +533,7 @@ void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     program.set("u_eye", shot.views[0].eye);
     program.set("u_background", environment.background_color);
     program.set("u_intensity", static_cast<float>(environment.intensity));
-    program.set("u_to_map", to_map_matrix(default_axes(Projection::cube)));
+    program.set("u_to_map", to_map_matrix(turned(default_axes(Projection::cube), environment)));
     cube.bind(kMirrorUnit);
     if (level) program.set("u_level", *level);
     program.set("u_mirror_map", kMirrorUnit);

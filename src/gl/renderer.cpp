@@ -125,9 +125,9 @@ class Renderer::Impl {
         SceneMaps maps;
     };
 
-    SceneMaps& maps_for(const Scene& scene, Method method);
+    SceneMaps& maps_for(const Scene& scene, Method method, bool quick);
     void forget_maps();
-    void make_maps(const Scene& scene);
+    void make_maps(const Scene& scene, bool quick = false);
     void draw_scene(const Scene& scene, const Shot& shot);
 
     std::shared_ptr<const SceneAssets> assets_;
@@ -150,7 +150,7 @@ void Renderer::Impl::set_assets(std::shared_ptr<const SceneAssets> assets) {
     assets_ = std::move(assets);
 }
 
-SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method) {
+SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method, bool quick) {
     const MapsKey key{method, map_size(scene, *assets_), gets_rougher(scene)};
     const auto found = std::find_if(kept_.begin(), kept_.end(),
                                     [&](const KeptMaps& kept) { return kept.key == key; });
@@ -165,7 +165,7 @@ SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method) {
         kept_.push_front(
             {key, SceneMaps(filter_, key.method, key.size, key.rough, assets_->baked)});
     }
-    kept_.front().maps.set_lobes(lobes_of(scene));
+    kept_.front().maps.set_lobes(lobes_of(scene), quick);
     return kept_.front().maps;
 }
 
@@ -179,12 +179,12 @@ void Renderer::Impl::forget_maps() {
     }
 }
 
-void Renderer::Impl::make_maps(const Scene& scene) {
+void Renderer::Impl::make_maps(const Scene& scene, bool quick) {
     check_scene(scene);
-    maps_ = &maps_for(scene, scene.method);
-    maps_->look_from(axes(scene.camera));
+    maps_ = &maps_for(scene, scene.method, quick);
+    maps_->look_from(axes(scene.camera), scene.environment);
     if (!has_dynamic_objects(scene)) return;
-    dynamic_.update(scene, painter_, maps_for(scene, Method::cube));
+    dynamic_.update(scene, painter_, maps_for(scene, Method::cube, quick));
 }
 
 // With the maps that there are.
@@ -202,7 +202,7 @@ void Renderer::Impl::draw_scene(const Scene& scene, const Shot& shot) {
 }
 
 void Renderer::Impl::draw(const Scene& scene, int width, int height, const DrawOptions& options) {
-    make_maps(scene);
+    make_maps(scene, options.quick);
     const View view = view_of(scene.camera, static_cast<double>(width) / height,
                               {2 * options.shift.x / width, 2 * options.shift.y / height});
     glViewport(options.left, options.bottom, width, height);

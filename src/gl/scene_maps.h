@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <mirrorball/baked_maps.h>
@@ -16,6 +17,8 @@
 
 namespace mirrorball::gl {
 
+/// They are made of the environment as its file has it. Where it is turned, so are lookups: that
+/// costs nothing but maps that are made for the camera.
 class SceneMaps {
   public:
     /// Of the filter's source; what is baked, if anything, stands for the filter. `size` is the
@@ -25,11 +28,12 @@ class SceneMaps {
               std::shared_ptr<const BakedMaps> baked = nullptr);
 
     /// Makes maps for the lobes that have none. Those of other lobes stay, up to some memory, for a
-    /// scene may come back to them; a lobe's map is the same whenever it is made.
-    void set_lobes(std::span<const Lobe> lobes);
+    /// scene may come back to them; a lobe's map is the same whenever it is made. `quick`: maps of
+    /// every roughness, which are made once, stand in for what would take long.
+    void set_lobes(std::span<const Lobe> lobes, bool quick = false);
 
-    /// Re-makes maps that depend on where the camera looks.
-    void look_from(const Axes& camera);
+    /// Re-makes maps that depend on where the camera looks in an environment that is turned so.
+    void look_from(const Axes& camera, const SceneEnvironment& environment);
 
     /// For a surface with this material in a scene with that environment, if its lobe is set.
     [[nodiscard]] LookupMaps lookup(const Material& material,
@@ -52,6 +56,7 @@ class SceneMaps {
 
     [[nodiscard]] EnvironmentMap filtered(const PrefilterTarget& target) const;
     void make_rough();
+    [[nodiscard]] bool takes_long(const Lobe& lobe) const;
     void make_glossy(const Lobe& lobe);
     bool forget_unused();
     [[nodiscard]] std::uint64_t unused_bytes() const;
@@ -66,8 +71,8 @@ class SceneMaps {
     MapTextures maps_;
     std::vector<Kept> lobes_;  // of maps_.glossy
     std::uint64_t turn_ = 0;
-    std::optional<MethodMaps> warped_;  // of maps with rims
-    std::optional<Axes> made_for_;      // the camera that those were last made for
+    std::optional<MethodMaps> warped_;               // of maps with rims
+    std::optional<std::pair<Axes, Axes>> made_for_;  // with these axes of maps_, for this camera
 };
 
 }  // namespace mirrorball::gl

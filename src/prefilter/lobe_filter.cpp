@@ -25,6 +25,7 @@ namespace {
 using namespace detail;
 
 constexpr std::array kBandCounts = {kFewBands, 512, 1024};
+constexpr std::size_t kQuickBands = 512;
 
 // Of what lobes that need so many bands leave of each: GGX falls to 1e-3 there.
 std::vector<double> power_for(int band_count) {
@@ -70,6 +71,7 @@ class LobeFilter::Impl {
           range_(range_of(*source_, solid_angles_)) {}
 
     EnvironmentMap make(const PrefilterTarget& target);
+    [[nodiscard]] bool is_quick(const PrefilterTarget& target) const;
 
     std::shared_ptr<const EnvironmentMap> source_;
 
@@ -151,6 +153,12 @@ EnvironmentMap LobeFilter::Impl::make(const PrefilterTarget& target) {
     return map;
 }
 
+bool LobeFilter::Impl::is_quick(const PrefilterTarget& target) const {
+    if (target.lobe.is_delta()) return true;
+    const std::optional<BandSplit> split = rules_.split(target);
+    return split && split->far.size() <= kQuickBands && !rules_.takes_whole_source(target.lobe);
+}
+
 LobeFilter::LobeFilter(std::shared_ptr<const EnvironmentMap> source,
                        const PrefilterOptions& options)
     : impl_(std::make_unique<Impl>(std::move(source), options)) {}
@@ -159,6 +167,10 @@ LobeFilter::~LobeFilter() = default;
 
 EnvironmentMap LobeFilter::operator()(const PrefilterTarget& target) {
     return impl_->make(target);
+}
+
+bool LobeFilter::is_quick(const PrefilterTarget& target) const {
+    return impl_->is_quick(target);
 }
 
 const EnvironmentMap& LobeFilter::source() const {

@@ -34,32 +34,33 @@ ScreenPicture on_screen(const Image& light, double exposure, ToneMap tone_map) {
     return picture;
 }
 
-EnvironmentMap blurred(const EnvironmentMap& map, const Lobe& lobe) {
-    const PrefilterTarget target{lobe, Projection::equirect, kBlurredWidth, map.axes};
-    return std::move(prefilter(map, {&target, 1}).front());
-}
-
 }  // namespace
 
 void ShownMaps::set_environment(const EnvironmentMap& environment) {
     const int width = std::min(kSmallWidth, mirror_map_size(environment, Projection::equirect));
-    small_ = resample(environment, Projection::equirect, width, environment.axes);
+    small_ = std::make_shared<const EnvironmentMap>(
+        resample(environment, Projection::equirect, width, environment.axes));
+    filter_.emplace(small_);
     diffuse_.reset(), glossy_.reset();
     kept_.clear();
+}
+
+EnvironmentMap ShownMaps::blurred(const Lobe& lobe) {
+    return (*filter_)({lobe, Projection::equirect, kBlurredWidth, small_->axes});
 }
 
 const EnvironmentMap& ShownMaps::map(MapContent content, const Lobe& lobe) {
     switch (content) {
         case MapContent::diffuse:
-            if (!diffuse_) diffuse_ = blurred(small_, {Lobe::Kind::diffuse});
+            if (!diffuse_) diffuse_ = blurred({Lobe::Kind::diffuse});
             return *diffuse_;
         case MapContent::glossy:
-            if (!glossy_ || !(glossy_->first == lobe)) glossy_.emplace(lobe, blurred(small_, lobe));
+            if (!glossy_ || !(glossy_->first == lobe)) glossy_.emplace(lobe, blurred(lobe));
             return glossy_->second;
         case MapContent::environment:
             break;
     }
-    return small_;
+    return *small_;
 }
 
 const ScreenPicture& ShownMaps::picture(MapContent content, Projection projection, int height,

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 
+#include <mirrorball/prefilter.h>
 #include <mirrorball/viewer.h>
 
 namespace mirrorball {
@@ -27,6 +29,7 @@ class ShownMaps {
                                  const Look& look);
 
   private:
+    [[nodiscard]] EnvironmentMap blurred(const Lobe& lobe);
     const EnvironmentMap& map(MapContent content, const Lobe& lobe);
 
     struct Kept {
@@ -34,7 +37,8 @@ class ShownMaps {
         ScreenPicture picture;
     };
     // A small panorama: pictures of a few hundred pixels show no more.
-    EnvironmentMap small_;
+    std::shared_ptr<const EnvironmentMap> small_;
+    std::optional<LobeFilter> filter_;
     std::optional<EnvironmentMap> diffuse_;
     std::optional<std::pair<Lobe, EnvironmentMap>> glossy_;
     std::map<std::tuple<MapContent, Projection, int>, Kept> kept_;

@@ -1,5 +1,7 @@
 #include "smooth_picture.h"
 
+#include <algorithm>
+
 #include "gl/check.h"
 
 namespace mirrorball {
@@ -39,32 +41,47 @@ void PictureTarget::bind_texture(int unit) const {
 }
 
 void SmoothPicture::bind_texture(int unit) const {
-    (is_encoded() ? *rough_ : smooth_->mean).bind_texture(unit);
+    (is_encoded() ? *first_ : smooth_->mean).bind_texture(unit);
 }
 
-void SmoothPicture::add(Renderer& renderer, const Scene& scene, int sample_count,
-                        ProgramCache& programs) {
-    if (taken_ == 0) {
-        if (!rough_) rough_.emplace(width_, height_, GL_RGBA8, true);
-        rough_->bind();
-        renderer.draw(scene, width_, height_, {.encoded = true});
-    } else {
-        if (!smooth_) {
-            smooth_.emplace(
-                Smooth{{width_, height_, GL_RGBA16F, true}, {width_, height_, GL_RGBA16F, false}});
-        }
-        smooth_->sample.bind();
-        const int sample = taken_ - 1;
-        renderer.draw(scene, width_, height_, {.shift = sample_shift(sample, sample_count)});
-        add_to_mean(sample, programs);
-    }
-    ++taken_;
+bool SmoothPicture::is_done(const Aim& aim) const {
+    const bool has_first = taken_ == 1 || (taken_ == 0 && first_is_shown_);
+    if (has_first) return aim.held || aim.sample_count == 1;
+    return taken_ > aim.sample_count;
 }
 
-void SmoothPicture::show_first(Renderer& renderer, const Scene& scene, DrawOptions options) {
+bool SmoothPicture::is_first(const Aim& aim) const {
+    return taken_ == 0 && (!first_is_shown_ || is_done(aim));
+}
+
+// Quick, unless it is the last, too.
+void SmoothPicture::show_first(Renderer& renderer, const Scene& scene, const Aim& aim,
+                               DrawOptions options) {
     options.encoded = true;
+    options.quick = aim.sample_count > 1;
     renderer.draw(scene, width_, height_, options);
-    taken_ = 1;
+    first_is_shown_ = true;
+}
+
+void SmoothPicture::add(Renderer& renderer, const Scene& scene, const Aim& aim,
+                        ProgramCache& programs) {
+    if (is_first(aim)) {
+        if (!first_) first_.emplace(width_, height_, GL_RGBA8, true);
+        first_->bind();
+        show_first(renderer, scene, aim, {});
+        taken_ = 1;
+        return;
+    }
+    if (is_done(aim)) return;
+    if (!smooth_) {
+        smooth_.emplace(
+            Smooth{{width_, height_, GL_RGBA16F, true}, {width_, height_, GL_RGBA16F, false}});
+    }
+    smooth_->sample.bind();
+    const int sample = std::max(taken_, 1) - 1;
+    renderer.draw(scene, width_, height_, {.shift = sample_shift(sample, aim.sample_count)});
+    add_to_mean(sample, programs);
+    taken_ = sample + 2;
 }
 
 // The mean of i + 1 samples is that of i, moved towards the new one.

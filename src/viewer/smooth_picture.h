@@ -30,26 +30,30 @@ class PictureTarget {
 
 class SmoothPicture {
   public:
+    /// How far it is to get. The first sample is of pixels' centres and shown alone, in as many
+    /// bits as screens have: it is all that there is while things move or are held. Those after it
+    /// are, of `sample_count`, the ones that Renderer::picture() averages; of one there are none.
+    struct Aim {
+        int sample_count = 8;
+        bool held = false;
+    };
+
     SmoothPicture(int width, int height) : width_(width), height_(height) {}
 
-    /// One more sample. The first is of pixels' centres and shown alone, in as many bits as screens
-    /// have: it is all that there is while things move. Those after it are, of `sample_count`, the
-    /// ones that Renderer::picture() averages.
-    void add(gl::Renderer& renderer, const Scene& scene, int sample_count,
-             gl::ProgramCache& programs);
-    /// The first into the framebuffer that is bound, where the options say; it is not kept.
-    void show_first(gl::Renderer& renderer, const Scene& scene, gl::DrawOptions options);
-    /// Is the next sample the first, or as good as that?
-    [[nodiscard]] bool can_show_first(int sample_count) const {
-        return taken_ == 0 || sample_count == 1;
-    }
-    void start_again() { taken_ = 0; }
-    [[nodiscard]] bool is_smooth(int sample_count) const {
-        return taken_ > (sample_count > 1 ? sample_count : 0);
-    }
+    void start_again() { taken_ = 0, first_is_shown_ = false; }
+    [[nodiscard]] bool is_done(const Aim& aim) const;
 
-    /// Is what there is to see encoded as sRGB? Else it is linear light.
-    [[nodiscard]] bool is_encoded() const { return taken_ <= 1; }
+    /// Is there nothing to show but the first sample?
+    [[nodiscard]] bool is_first(const Aim& aim) const;
+    /// Draws that into the framebuffer that is bound, where the options say, and keeps nothing.
+    void show_first(gl::Renderer& renderer, const Scene& scene, const Aim& aim,
+                    gl::DrawOptions options);
+
+    /// One more sample, unless it is done, for bind_texture().
+    void add(gl::Renderer& renderer, const Scene& scene, const Aim& aim,
+             gl::ProgramCache& programs);
+    /// Is what is bound encoded as sRGB? Else it is linear light.
+    [[nodiscard]] bool is_encoded() const { return taken_ == 1; }
     void bind_texture(int unit) const;
 
   private:
@@ -60,10 +64,11 @@ class SmoothPicture {
     void add_to_mean(int sample, gl::ProgramCache& programs);
 
     int width_, height_;
-    std::optional<PictureTarget> rough_;
+    std::optional<PictureTarget> first_;
     std::optional<Smooth> smooth_;
     gl::VertexArray nothing_;
-    int taken_ = 0;
+    int taken_ = 0;  // into textures: the first, then those of the mean
+    bool first_is_shown_ = false;
 };
 
 }  // namespace mirrorball

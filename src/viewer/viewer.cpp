@@ -124,6 +124,7 @@ class Viewer::Impl {
     Options options_;
     ShownMaps shown_maps_;
     bool smooth_ = false;
+    bool held_ = false;
 
   private:
     // What one side of the comparison is drawn with.
@@ -144,6 +145,7 @@ class Viewer::Impl {
     void adopt(const Scene& scene, std::shared_ptr<const SceneAssets> assets);
     void take_environment(const LoadedMap& loaded);
     [[nodiscard]] bool has_changed() const;
+    [[nodiscard]] SmoothPicture::Aim aim() const { return {options_.sample_count, held_}; }
     [[nodiscard]] bool shows_two() const { return comparison_.showing != Showing::one; }
     void draw_sides(bool again, int left, int bottom);
     [[nodiscard]] bool can_show_first() const;
@@ -151,7 +153,6 @@ class Viewer::Impl {
     void add_sample(Side& side, Method method);
     void show(int left, int bottom);
 
-    Axes environment_axes_;  // of the environment before it is turned
     double usual_exposure_ = 1;
     Side sides_[2];
     gl::ProgramCache programs_;
@@ -161,7 +162,6 @@ class Viewer::Impl {
 };
 
 void Viewer::Impl::take_environment(const LoadedMap& loaded) {
-    environment_axes_ = loaded.map.axes;
     notes_ = loaded.notes;
     notes_.insert(notes_.begin(), fmt::format("{}, {} {}", loaded.format,
                                               name(loaded.map.projection), size_text(loaded.map)));
@@ -184,12 +184,9 @@ void Viewer::Impl::set(const Scene& scene) {
         show_environment(scene, load_environment(scene.environment, folder_, asset_options()));
         return;
     }
-    const Axes axes = turned(environment_axes_, scene.environment);
-    if (axes == assets_->environment.axes && is_loaded(scene, *assets_))
-        return adopt(scene, assets_);
+    if (is_loaded(scene, *assets_)) return adopt(scene, assets_);
     SceneAssets assets = *assets_;
     load_missing(assets, scene, folder_, asset_options());
-    assets.environment.axes = axes;
     adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
 }
 
@@ -201,7 +198,6 @@ void Viewer::Impl::show_environment(Scene scene, LoadedMap map) {
     load_missing(assets, scene, folder_, asset_options());
     take_environment(map);
     assets.environment = std::move(map.map);
-    assets.environment.axes = turned(environment_axes_, scene.environment);
     adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
 }
 
@@ -211,7 +207,6 @@ void Viewer::Impl::open(const Scene& scene, const fs::path& folder) {
     LoadedMap map = load_environment(scene.environment, folder, asset_options());
     take_environment(map);
     assets.environment = std::move(map.map);
-    assets.environment.axes = turned(environment_axes_, scene.environment);
     folder_ = folder;
     selected_ = 0;
     adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
@@ -225,9 +220,8 @@ bool Viewer::Impl::has_changed() const {
 // buffer there.
 bool Viewer::Impl::can_show_first() const {
     if (comparison_.showing == Showing::difference) return false;
-    if (!sides_[0].picture->can_show_first(options_.sample_count)) return false;
-    if (shows_two() && !sides_[1].picture->can_show_first(options_.sample_count)) return false;
-    return is_depth_tested();
+    const auto is_first = [&](const Side& side) { return side.picture->is_first(aim()); };
+    return is_first(sides_[0]) && (!shows_two() || is_first(sides_[1])) && is_depth_tested();
 }
 
 void Viewer::Impl::show_first(int left, int bottom) {
@@ -235,20 +229,19 @@ void Viewer::Impl::show_first(int left, int bottom) {
     const int middle =
         shows_two() ? static_cast<int>(std::ceil(comparison_.wipe * width_ - 0.5)) : width_;
     Scene scene = scene_;
-    sides_[0].picture->show_first(*sides_[0].renderer, scene,
+    sides_[0].picture->show_first(*sides_[0].renderer, scene, aim(),
                                   {.left = left, .bottom = bottom, .last_column = middle});
     if (!shows_two()) return;
     scene.method = comparison_.other;
-    sides_[1].picture->show_first(*sides_[1].renderer, scene,
+    sides_[1].picture->show_first(*sides_[1].renderer, scene, aim(),
                                   {.left = left, .bottom = bottom, .first_column = middle});
 }
 
 void Viewer::Impl::add_sample(Side& side, Method method) {
-    if (side.picture->is_smooth(options_.sample_count)) return;
     const gl::FramebufferGuard guard;
     Scene scene = scene_;
     scene.method = method;
-    side.picture->add(*side.renderer, scene, options_.sample_count, programs_);
+    side.picture->add(*side.renderer, scene, aim(), programs_);
 }
 
 void Viewer::Impl::draw_sides(bool again, int left, int bottom) {
@@ -310,8 +303,8 @@ void Viewer::Impl::draw(int width, int height, int left, int bottom) {
         throw;
     }
     drawn_ = {scene_, comparison_.other, assets_};
-    smooth_ = sides_[0].picture->is_smooth(options_.sample_count) &&
-              (!shows_two() || sides_[1].picture->is_smooth(options_.sample_count));
+    smooth_ =
+        sides_[0].picture->is_done(aim()) && (!shows_two() || sides_[1].picture->is_done(aim()));
 }
 
 Viewer::Viewer() : Viewer(usual_scene(), {}, {}) {
@@ -515,6 +508,10 @@ bool Viewer::is_smooth() const {
     return impl_->smooth_;
 }
 
+void Viewer::hold(bool held) {
+    impl_->held_ = held;
+}
+
 Hover Viewer::hover(double x, double y, int width, int height) const {
     return hover_at(scene(), assets(), (x + 0.5) / width, (y + 0.5) / height,
                     static_cast<double>(width) / height);
@@ -528,7 +525,7 @@ Axes Viewer::axes_of_map(Projection projection) const {
 
 const ScreenPicture& Viewer::map_picture(MapContent content, Projection projection, int height) {
     ShownMaps::Look look;
-    look.environment = assets().environment.axes;
+    look.environment = turned(assets().environment.axes, scene().environment);
     look.exposure = exposure() * scene().environment.intensity;
     look.tone_map = scene().tone_map;
     look.axes = axes_of_map(projection);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <mirrorball/error.h>
+#include <mirrorball/lobe.h>
 
 namespace mirrorball::window {
 namespace {
@@ -62,10 +63,22 @@ Step parse_step(LineReader& line) {
         const double dx = line.number("the way to the right"), dy = line.number("the way down");
         return DragStep{dx, dy, line.at_end() ? 1 : line.whole("the frames", 1, kMostFrames)};
     }
+    if (verb == "lobe") {
+        const std::string kind = line.word("the kind of lobe");
+        const double from = line.number("the first number"), to = line.number("the last number");
+        for (const double number : {from, to}) {
+            try {
+                (void)parse_lobe(fmt::format("{}:{}", kind, number));
+            } catch (const Error& error) {
+                line.fail(error.what());
+            }
+        }
+        return LobeStep{kind, from, to, line.whole("the frames", 1, kMostFrames)};
+    }
     if (verb == "wait") return WaitStep{line.whole("the frames", 1, kMostFrames)};
     line.fail(
         fmt::format("\"{}\" is no step; there are: resize W H, drop FILE, key KEY, drag DX DY "
-                    "[FRAMES], wait FRAMES",
+                    "[FRAMES], lobe KIND FROM TO FRAMES, wait FRAMES",
                     verb));
 }
 

@@ -91,10 +91,12 @@ class ViewWindow {
     void wait();
     void take_events();
     void take_step();
+    void take_lobe();
     void do_step(const ResizeStep& step);
     void do_step(const DropStep& step) { session_.drop(step.file); }
     void do_step(const KeyStep& step) { session_.press(step.key); }
     void do_step(const DragStep& step) { drag_ = step; }
+    void do_step(const LobeStep& step) { lobe_.emplace(step, 0); }
     void do_step(const WaitStep& step) { waiting_ = step.frames - 1; }
     void lay_out();
     void draw_frame();
@@ -111,6 +113,7 @@ class ViewWindow {
     std::size_t next_step_ = 0;
     int waiting_ = 0;
     std::optional<DragStep> drag_;
+    std::optional<std::pair<LobeStep, int>> lobe_;  // and how many of its frames were
     double applied_scale_ = 0;
     int lively_frames_ = 3;  // drawn without waiting: controls settle in a few frames
     Area panel_, maps_;
@@ -119,7 +122,7 @@ class ViewWindow {
 bool ViewWindow::is_done(int frame) const {
     if (desktop_.is_closed() || session_.quit) return true;
     return is_scripted() && frame >= options_.frames && next_step_ == options_.script.size() &&
-           waiting_ == 0 && !drag_;
+           waiting_ == 0 && !drag_ && !lobe_;
 }
 
 // Only while there is nothing to draw.
@@ -159,12 +162,26 @@ void ViewWindow::take_step() {
         if (--drag_->frames == 0) drag_.reset();
         return;
     }
+    if (lobe_) return take_lobe();
     if (waiting_ > 0) {
         --waiting_;
         return;
     }
     if (next_step_ == options_.script.size()) return;
     std::visit([&](const auto& step) { do_step(step); }, options_.script[next_step_++]);
+}
+
+// As the slider of the material's controls does.
+void ViewWindow::take_lobe() {
+    const LobeStep& step = lobe_->first;
+    const double share = step.frames > 1 ? lobe_->second / (step.frames - 1.0) : 1;
+    const double value = step.from + (step.to - step.from) * share;
+    session_.edit([&](Scene& scene) {
+        if (viewer_.selected() < scene.objects.size())
+            scene.objects[viewer_.selected()].material.lobe =
+                parse_lobe(fmt::format("{}:{}", step.kind, value));
+    });
+    if (++lobe_->second == step.frames) lobe_.reset();
 }
 
 // The panel at the right and the maps below take what the picture can spare.
@@ -186,6 +203,7 @@ void ViewWindow::draw_picture() {
     const Area& area = session_.picture;
     if (area.width < 1 || area.height < 1) return;
     const int bottom = height - area.height - static_cast<int>(area.top);
+    viewer_.hold(!is_scripted() && ImGui::IsAnyMouseDown());
     const auto draw = [&] {
         viewer_.draw(area.width, area.height, static_cast<int>(area.left), bottom);
     };

@@ -180,6 +180,8 @@ TEST_F(ViewVerb, RefusesWhatItCannotDo) {
     wrong_step("drop\n", "steps.txt:1");
     wrong_step("drag 1\n", "steps.txt:1");
     wrong_step("wait 1 2\n", "steps.txt:1");
+    wrong_step("lobe ggx 0.1 2\n", "steps.txt:1");
+    wrong_step("lobe glue 0.1 0.2 3\n", "steps.txt:1");
 }
 
 }  // namespace

@@ -89,6 +89,19 @@ TEST(LobeFilter, DarkSourcesAreDark) {
     }
 }
 
+TEST(LobeFilter, KnowsWhichLobesTakeLong) {
+    const auto source =
+        std::make_shared<const EnvironmentMap>(make_environment_map(Projection::equirect, 1024));
+    const LobeFilter filter(source);
+    const auto is_quick = [&](const char* lobe) {
+        return filter.is_quick({parse_lobe(lobe), Projection::cube, 256});
+    };
+    for (const char* lobe : {"mirror", "diffuse", "ggx:1", "ggx:0.12", "phong:1000"})
+        EXPECT_TRUE(is_quick(lobe)) << lobe;
+    for (const char* lobe : {"ggx:0.1", "ggx:0.06", "ggx:0.03"})
+        EXPECT_FALSE(is_quick(lobe)) << lobe;
+}
+
 TEST(LobeFilter, RefusesWhatPlansRefuse) {
     auto broken = make_environment_map(Projection::equirect, 64);
     broken.levels[0].faces[0].set_rgb(3, 4, Vec3f(std::numeric_limits<float>::quiet_NaN()));

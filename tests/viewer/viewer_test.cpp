@@ -194,6 +194,7 @@ TEST_F(ViewerTest, ScreensWithDepthShowTheSame) {
                     << name(showing) << ", draw " << draws << " of " << samples;
                 EXPECT_EQ(one.is_smooth(), other.is_smooth());
             }
+            EXPECT_EQ(plain.show(one), plain.show(other)) << "the other way of two";
             // Only the line moves.
             for (Viewer* viewer : {&one, &other}) {
                 Comparison comparison = viewer->comparison();
@@ -202,6 +203,33 @@ TEST_F(ViewerTest, ScreensWithDepthShowTheSame) {
             }
             EXPECT_EQ(plain.show(one), with_depth.show(other)) << name(showing);
         }
+    }
+}
+
+// What is held is not made smooth, and of lobes that take long to prefilter shows the chain.
+TEST_F(ViewerTest, HeldPicturesAreQuick) {
+    Scene scene = small_scene();
+    Material& material = scene.objects[0].material;
+    material.mirror = 0, material.glossy = 1;
+    material.lobe = {Lobe::Kind::ggx, 0.08};
+    Screen screens[] = {{kWidth, kHeight, false}, {kWidth, kHeight, true}};
+    for (Screen& screen : screens) {
+        Viewer viewer = make_viewer(scene, 4);
+        viewer.hold(true);
+        const std::vector<int> held = screen.show(viewer);
+        EXPECT_TRUE(viewer.is_smooth());
+        EXPECT_EQ(screen.show(viewer), held);
+        for (const Showing showing : {Showing::difference, Showing::one}) {
+            viewer.set_comparison({.showing = showing, .other = Method::cube});
+            screen.show(viewer, 2);
+        }
+        EXPECT_EQ(screen.show(viewer), held);
+        viewer.hold(false);
+        const std::vector<int> smooth = screen.show(viewer, 4);
+        EXPECT_TRUE(viewer.is_smooth());
+        EXPECT_EQ(screen.show(viewer), smooth);
+        EXPECT_LE(largest_difference(smooth, rendered(viewer, Method::cube, 4)), kMeanCodes);
+        EXPECT_GT(largest_difference(smooth, held), kMeanCodes);
     }
 }
 
