@@ -92,7 +92,8 @@ class LobeFilter {
 
     /// Like PrefilterPlan, to its tolerance, not bit by bit. The bits depend on the source, the
     /// options and the target: not on threads, nor on what was asked for before.
-    [[nodiscard]] EnvironmentMap operator()(const PrefilterTarget& target);
+    [[nodiscard]] EnvironmentMap operator()(const PrefilterTarget& target,
+                                            const Progress& progress = {});
 
     [[nodiscard]] const EnvironmentMap& source() const;
 

@@ -6,9 +6,13 @@
 
 #include <mirrorball/reflection_maps.h>
 
+#include "core/part_of.h"
 #include "scene/method_lookup.h"
 
 namespace mirrorball::gl {
+
+using detail::part_of;
+
 namespace {
 
 // Maps with rims are cut out of cubes on the graphics card: sphere maps for each camera anew, and
@@ -27,13 +31,17 @@ int size_as_fine(const EnvironmentMap& environment, Projection projection, int s
 
 constexpr std::uint64_t kMostUnusedBytes = 64 << 20;
 
+// Of the progress, about.
+constexpr double kMirrorShare = 0.3, kDiffuseEnd = 0.5;
+
 Texture uploaded(const EnvironmentMap& map, Method method) {
     return method == Method::cube_seams ? upload_face_array(map) : upload(map);
 }
 
 }  // namespace
 
-SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough)
+SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough,
+                     const Progress& progress)
     : filter_(std::move(filter)),
       method_(method),
       projection_(is_warped(method) ? Projection::cube : projection_of(method)),
@@ -43,38 +51,53 @@ SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size
     const int map_size = size_as_fine(environment, projection_, size);
     // Before it takes time and memory.
     check_texture_size(target_for(projection_), map_size, 1);
-    const EnvironmentMap mirror = make_mirror_map(environment, projection_, map_size, axes_);
+    const EnvironmentMap mirror = make_mirror_map(environment, projection_, map_size, axes_,
+                                                  part_of(progress, 0, kMirrorShare));
     maps_.mirror = uploaded(mirror, method);
     if (method == Method::cube_split) maps_.mirror_faces = upload_faces(mirror);
-    maps_.diffuse = uploaded((*filter_)(diffuse_target(projection_, axes_)), method);
     // A roughness for each pixel takes a lookup for each.
-    if (rough && detail::looks_up_per_pixel(method)) make_rough();
+    const bool gets_rough = rough && detail::looks_up_per_pixel(method);
+    const double diffuse_end = gets_rough ? kDiffuseEnd : 1;
+    maps_.diffuse = uploaded((*filter_)(diffuse_target(projection_, axes_),
+                                        part_of(progress, kMirrorShare, diffuse_end)),
+                             method);
+    if (gets_rough) make_rough(part_of(progress, diffuse_end, 1));
     if (is_warped(method)) warped_.emplace(method, maps_);
 }
 
-void SceneMaps::make_rough() {
+void SceneMaps::make_rough(const Progress& progress) {
     std::vector<EnvironmentMap> levels;
-    for (const PrefilterTarget& target : rough_targets(filter_->source(), projection_, axes_))
-        levels.push_back((*filter_)(target));
+    const std::vector<PrefilterTarget> targets =
+        rough_targets(filter_->source(), projection_, axes_);
+    const auto count = static_cast<double>(targets.size());
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const auto begun = static_cast<double>(i);
+        levels.push_back(
+            (*filter_)(targets[i], part_of(progress, begun / count, (begun + 1) / count)));
+    }
     maps_.rough = uploaded(levels_of(levels), method_);
 }
 
-void SceneMaps::make_glossy(const Lobe& lobe) {
+void SceneMaps::make_glossy(const Lobe& lobe, const Progress& progress) {
     const EnvironmentMap map =
-        (*filter_)(glossy_target(filter_->source(), lobe, projection_, axes_));
+        (*filter_)(glossy_target(filter_->source(), lobe, projection_, axes_), progress);
     Texture texture = uploaded(map, method_);
     if (method_ == Method::cube_split) maps_.glossy_faces.push_back(upload_faces(map));
     maps_.glossy.push_back(std::move(texture));
     lobes_.push_back({lobe, 0});
 }
 
-void SceneMaps::set_lobes(std::span<const Lobe> lobes) {
+void SceneMaps::set_lobes(std::span<const Lobe> lobes, const Progress& progress) {
     ++turn_;
     bool changed = false;
+    double begun = 0;
+    const auto count = static_cast<double>(lobes.size());
     for (const Lobe& lobe : lobes) {
         const std::size_t i = index_of(lobe);
+        const Progress of_lobe = part_of(progress, begun / count, (begun + 1) / count);
+        ++begun;
         if (i == lobes_.size()) {
-            make_glossy(lobe);
+            make_glossy(lobe, of_lobe);
             changed = true;
         }
         lobes_[i].used = turn_;

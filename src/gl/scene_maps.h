@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <mirrorball/prefilter.h>
+#include <mirrorball/progress.h>
 #include <mirrorball/scene.h>
 
 #include "map_textures.h"
@@ -20,11 +21,12 @@ class SceneMaps {
     /// Of the filter's source. `size` is the edge of a cube's face; other maps are as fine as such
     /// a cube. Maps of every roughness are made if they are asked for and the method looks up at
     /// each pixel.
-    SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough = false);
+    SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough = false,
+              const Progress& progress = {});
 
     /// Makes maps for the lobes that have none. Those of other lobes stay, up to some memory, for a
     /// scene may come back to them; a lobe's map is the same whenever it is made.
-    void set_lobes(std::span<const Lobe> lobes);
+    void set_lobes(std::span<const Lobe> lobes, const Progress& progress = {});
 
     /// Re-makes maps that depend on where the camera looks.
     void look_from(const Axes& camera);
@@ -48,8 +50,8 @@ class SceneMaps {
         std::uint64_t used;  // the last turn in which it was
     };
 
-    void make_rough();
-    void make_glossy(const Lobe& lobe);
+    void make_rough(const Progress& progress);
+    void make_glossy(const Lobe& lobe, const Progress& progress);
     bool forget_unused();
     [[nodiscard]] std::uint64_t unused_bytes() const;
     [[nodiscard]] std::size_t index_of(const Lobe& lobe) const;
