@@ -18,10 +18,15 @@ void main() {
 #ifdef PLAIN
     vec3 radiance = u_background;
 #else
-    vec3 d = u_to_map * normalize(seen_from_capture(u_eye, normalize(v_ray)));
+#if PROXY == NO_PROXY
+    vec3 d = u_to_map * v_ray;
+#else
+    vec3 d = u_to_map * seen_from_capture(u_eye, normalize(v_ray));
+#endif
 #ifdef LEVEL_KNOWN
     float level = max(0.0, u_level);
 #else
+    d = normalize(d);
     float seen = length(cross(dFdx(d), dFdy(d)));
     float level = max(0.0, 0.5 * log2(max(seen, 1e-20) / texel_solid_angle(u_mirror_map, d)));
 #endif

@@ -22,11 +22,16 @@ float footprint_level(vec3 d) {
 #ifdef FINEST_ONLY
     return 0.0;
 #endif
+#if PROXY == NO_PROXY
+    vec3 u = d;  // what mirrors and refracts a unit vector gives one
+#else
     vec3 u = normalize(d);
-    float seen = length(cross(dFdx(u), dFdy(u)));
+#endif
+    vec3 across = cross(dFdx(u), dFdy(u));
+    float seen2 = dot(across, across), texel = texel_solid_angle(u_mirror_map, u);
     // no number where a neighbour beyond the triangle's edge has no direction to look up
-    float sure = seen > 1e-20 ? seen : 1e-20;
-    return max(0.0, 0.5 * log2(sure / texel_solid_angle(u_mirror_map, d)));
+    float sure2 = seen2 > 1e-37 ? seen2 : 1e-37;
+    return max(0.0, 0.25 * log2(sure2 / (texel * texel)));
 }
 
 vec3 mirrored_light(vec3 r) {

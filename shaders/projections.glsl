@@ -53,10 +53,10 @@ vec3 octahedral_direction(vec2 st) {
     return vec3(z >= 0.0 ? p : (1.0 - abs(p.yx)) * side, z);
 }
 
-// Solid angle of a texel about d of a cube whose faces have `size` texels a side.
+// Solid angle of a texel about d, a unit vector, of a cube whose faces have `size` texels a side.
 float cube_texel_solid_angle(vec3 d, float size) {
     vec3 a = abs(d);
-    float cosine = max(a.x, max(a.y, a.z)) / length(d);
+    float cosine = max(a.x, max(a.y, a.z));
     return 4.0 * cosine * cosine * cosine / (size * size);
 }
 

@@ -21,12 +21,12 @@ out vec4 o_color;
 uniform vec3 u_eye;
 uniform float u_intensity;     // of the environment
 
+#include "proxy.glsl"
 #if PER_VERTEX
 #include "light_per_vertex.glsl"
 #else
 #include "light_per_pixel.glsl"
 #endif
-#include "proxy.glsl"
 #include "material.glsl"
 #include "point_lights.glsl"
 #include "light_map.glsl"

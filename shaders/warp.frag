@@ -58,7 +58,7 @@ void main() {
 #else
     float solid_angle = solid_angle_at(st, d) / (u_size.x * u_size.y);
     d = u_to_cube * d;
-    float level = max(0.0, 0.5 * log2(solid_angle / texel_solid_angle(u_cube, d)));
+    float level = max(0.0, 0.5 * log2(solid_angle / texel_solid_angle(u_cube, normalize(d))));
 #endif
     o_color = vec4(look_up(u_cube, d, level), 1.0);
 }

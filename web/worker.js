@@ -189,7 +189,7 @@ const calls = {
     full = [width, height];
     set_size(1);
     const handle = module.GL.createContext(canvas, {
-      majorVersion: 2, minorVersion: 0, alpha: false, depth: false, stencil: false,
+      majorVersion: 2, minorVersion: 0, alpha: false, depth: true, stencil: false,
       antialias: false, powerPreference: 'high-performance', enableExtensionsByDefault: true });
     if (!handle) return { error: 'This browser has no WebGL2, or it is switched off.' };
     module.GL.makeContextCurrent(handle);

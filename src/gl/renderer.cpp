@@ -85,6 +85,18 @@ bool gets_rougher(const Scene& scene) {
     });
 }
 
+// As long as it is there, nothing else is drawn into.
+class Scissor {
+  public:
+    Scissor(int left, int bottom, int width, int height) {
+        glScissor(left, bottom, width, height);
+        glEnable(GL_SCISSOR_TEST);
+    }
+    ~Scissor() { glDisable(GL_SCISSOR_TEST); }
+    Scissor(const Scissor&) = delete;
+    Scissor& operator=(const Scissor&) = delete;
+};
+
 }  // namespace
 
 class Renderer::Impl {
@@ -202,7 +214,10 @@ void Renderer::Impl::draw(const Scene& scene, int width, int height, const DrawO
     make_maps(scene);
     const View view = view_of(scene.camera, static_cast<double>(width) / height,
                               {2 * options.shift.x / width, 2 * options.shift.y / height});
-    glViewport(0, 0, width, height);
+    glViewport(options.left, options.bottom, width, height);
+    const int first = std::clamp(options.first_column, 0, width),
+              last = std::clamp(options.last_column, first, width);
+    const Scissor part(options.left + first, options.bottom, last - first, height);
     draw_scene(scene, {{&view, 1}, options.encoded ? Output::screen : Output::display, 0, height});
 }
 

@@ -39,14 +39,15 @@ void PictureTarget::bind_texture(int unit) const {
 }
 
 void SmoothPicture::bind_texture(int unit) const {
-    (is_encoded() ? rough_ : smooth_->mean).bind_texture(unit);
+    (is_encoded() ? *rough_ : smooth_->mean).bind_texture(unit);
 }
 
 void SmoothPicture::add(Renderer& renderer, const Scene& scene, int sample_count,
                         ProgramCache& programs) {
     if (taken_ == 0) {
-        rough_.bind();
-        renderer.draw(scene, width_, height_, {.shift = {0, 0}, .encoded = true});
+        if (!rough_) rough_.emplace(width_, height_, GL_RGBA8, true);
+        rough_->bind();
+        renderer.draw(scene, width_, height_, {.encoded = true});
     } else {
         if (!smooth_) {
             smooth_.emplace(
@@ -54,11 +55,16 @@ void SmoothPicture::add(Renderer& renderer, const Scene& scene, int sample_count
         }
         smooth_->sample.bind();
         const int sample = taken_ - 1;
-        renderer.draw(scene, width_, height_,
-                      {.shift = sample_shift(sample, sample_count), .encoded = false});
+        renderer.draw(scene, width_, height_, {.shift = sample_shift(sample, sample_count)});
         add_to_mean(sample, programs);
     }
     ++taken_;
+}
+
+void SmoothPicture::show_first(Renderer& renderer, const Scene& scene, DrawOptions options) {
+    options.encoded = true;
+    renderer.draw(scene, width_, height_, options);
+    taken_ = 1;
 }
 
 // The mean of i + 1 samples is that of i, moved towards the new one.

@@ -30,16 +30,19 @@ class PictureTarget {
 
 class SmoothPicture {
   public:
-    SmoothPicture(int width, int height)
-        : width_(width),
-          height_(height),
-          rough_(width, height, GL_RGBA8, true) {}
+    SmoothPicture(int width, int height) : width_(width), height_(height) {}
 
     /// One more sample. The first is of pixels' centres and shown alone, in as many bits as screens
     /// have: it is all that there is while things move. Those after it are, of `sample_count`, the
     /// ones that Renderer::picture() averages.
     void add(gl::Renderer& renderer, const Scene& scene, int sample_count,
              gl::ProgramCache& programs);
+    /// The first into the framebuffer that is bound, where the options say; it is not kept.
+    void show_first(gl::Renderer& renderer, const Scene& scene, gl::DrawOptions options);
+    /// Is the next sample the first, or as good as that?
+    [[nodiscard]] bool can_show_first(int sample_count) const {
+        return taken_ == 0 || sample_count == 1;
+    }
     void start_again() { taken_ = 0; }
     [[nodiscard]] bool is_smooth(int sample_count) const {
         return taken_ > (sample_count > 1 ? sample_count : 0);
@@ -57,7 +60,7 @@ class SmoothPicture {
     void add_to_mean(int sample, gl::ProgramCache& programs);
 
     int width_, height_;
-    PictureTarget rough_;
+    std::optional<PictureTarget> rough_;
     std::optional<Smooth> smooth_;
     gl::VertexArray nothing_;
     int taken_ = 0;

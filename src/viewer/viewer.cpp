@@ -73,6 +73,17 @@ std::string size_text(const EnvironmentMap& map) {
                      : fmt::format("{} x {}", map.width(), map.height());
 }
 
+// In the framebuffer that is bound.
+bool is_depth_tested() {
+    GLint framebuffer = 0, type = GL_NONE;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+    glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER,
+                                          framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT,
+                                          GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
+    gl::check("asking for a depth buffer");
+    return type != GL_NONE;
+}
+
 }  // namespace
 
 std::string_view name(Showing showing) {
@@ -134,7 +145,11 @@ class Viewer::Impl {
     void adopt(const Scene& scene, std::shared_ptr<const SceneAssets> assets);
     void take_environment(const LoadedMap& loaded);
     [[nodiscard]] bool has_changed() const;
-    void draw_side(Side& side, Method method, bool again);
+    [[nodiscard]] bool shows_two() const { return comparison_.showing != Showing::one; }
+    void draw_sides(bool again, int left, int bottom);
+    [[nodiscard]] bool can_show_first() const;
+    void show_first(int left, int bottom);
+    void add_sample(Side& side, Method method);
     void show(int left, int bottom);
 
     Axes environment_axes_;  // of the environment before it is turned
@@ -208,17 +223,55 @@ bool Viewer::Impl::has_changed() const {
     return !drawn_ || drawn_->assets != assets_ || !(drawn_->scene == scene_);
 }
 
-void Viewer::Impl::draw_side(Side& side, Method method, bool again) {
-    if (!side.renderer) {
-        side.renderer.emplace(assets_);
-        side.renderer->report_to(options_.prefiltering);
-    }
-    if (!side.picture) side.picture.emplace(width_, height_);
-    if (again) side.picture->start_again();
+// Pictures that move are drawn where they are shown, each method its part. That takes a depth
+// buffer there.
+bool Viewer::Impl::can_show_first() const {
+    if (comparison_.showing == Showing::difference) return false;
+    if (!sides_[0].picture->can_show_first(options_.sample_count)) return false;
+    if (shows_two() && !sides_[1].picture->can_show_first(options_.sample_count)) return false;
+    return is_depth_tested();
+}
+
+void Viewer::Impl::show_first(int left, int bottom) {
+    // As show.frag has it: a pixel is on the side of its centre.
+    const int middle =
+        shows_two() ? static_cast<int>(std::ceil(comparison_.wipe * width_ - 0.5)) : width_;
+    Scene scene = scene_;
+    sides_[0].picture->show_first(*sides_[0].renderer, scene,
+                                  {.left = left, .bottom = bottom, .last_column = middle});
+    if (!shows_two()) return;
+    scene.method = comparison_.other;
+    sides_[1].picture->show_first(*sides_[1].renderer, scene,
+                                  {.left = left, .bottom = bottom, .first_column = middle});
+}
+
+void Viewer::Impl::add_sample(Side& side, Method method) {
     if (side.picture->is_smooth(options_.sample_count)) return;
+    const gl::FramebufferGuard guard;
     Scene scene = scene_;
     scene.method = method;
     side.picture->add(*side.renderer, scene, options_.sample_count, programs_);
+}
+
+void Viewer::Impl::draw_sides(bool again, int left, int bottom) {
+    for (Side& side : sides_) {
+        if (&side == &sides_[1] && !shows_two()) {
+            if (again) side.picture.reset();
+            break;
+        }
+        if (!side.renderer) {
+            side.renderer.emplace(assets_);
+            side.renderer->report_to(options_.prefiltering);
+        }
+        if (!side.picture) side.picture.emplace(width_, height_);
+        if (again) side.picture->start_again();
+    }
+    if (shows_two() && drawn_ && drawn_->other != comparison_.other)
+        sides_[1].picture->start_again();
+    if (can_show_first()) return show_first(left, bottom);
+    add_sample(sides_[0], scene_.method);
+    if (shows_two()) add_sample(sides_[1], comparison_.other);
+    show(left, bottom);
 }
 
 void Viewer::Impl::show(int left, int bottom) {
@@ -227,7 +280,7 @@ void Viewer::Impl::show(int left, int bottom) {
     glViewport(left, bottom, width_, height_);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
-    const bool two = comparison_.showing != Showing::one;
+    const bool two = shows_two();
     Definitions definitions = {kShow[static_cast<int>(comparison_.showing)]};
     if (sides_[0].picture->is_encoded()) definitions.emplace_back("FIRST_ENCODED");
     if (two && sides_[1].picture->is_encoded()) definitions.emplace_back("SECOND_ENCODED");
@@ -252,16 +305,8 @@ void Viewer::Impl::draw(int width, int height, int left, int bottom) {
         width_ = width, height_ = height;
         for (Side& side : sides_) side.picture.reset();
     }
-    const bool again = has_changed();
-    const bool two = comparison_.showing != Showing::one;
     try {
-        const gl::FramebufferGuard guard;
-        draw_side(sides_[0], scene_.method, again);
-        if (two) {
-            draw_side(sides_[1], comparison_.other, again || drawn_->other != comparison_.other);
-        } else if (again) {
-            sides_[1].picture.reset();
-        }
+        draw_sides(has_changed(), left, bottom);
     } catch (const Error&) {
         if (drawn_) {
             comparison_.other = drawn_->other;
@@ -271,8 +316,7 @@ void Viewer::Impl::draw(int width, int height, int left, int bottom) {
     }
     drawn_ = {scene_, comparison_.other, assets_};
     smooth_ = sides_[0].picture->is_smooth(options_.sample_count) &&
-              (!two || sides_[1].picture->is_smooth(options_.sample_count));
-    show(left, bottom);
+              (!shows_two() || sides_[1].picture->is_smooth(options_.sample_count));
 }
 
 Viewer::Viewer() : Viewer(usual_scene(), {}, {}) {

@@ -51,21 +51,39 @@ class ViewerTest : public gl::GlTest {
 // A screen of 8 bits, and what a viewer puts on it.
 class Screen {
   public:
-    Screen(int width, int height) : width_(width), height_(height) {
+    Screen(int width, int height, bool with_depth = false) : width_(width), height_(height) {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
         glBindRenderbuffer(GL_RENDERBUFFER, picture_.name());
         glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
                                   picture_.name());
+        if (!with_depth) return;
+        glBindRenderbuffer(GL_RENDERBUFFER, depth_.name());
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                                  depth_.name());
     }
 
     /// Codes, three a pixel, top row first.
     std::vector<int> show(Viewer& viewer, int draws = 1) {
+        return show(viewer, draws, width_, height_, 0, 0);
+    }
+    std::vector<int> show(Viewer& viewer, int draws, int width, int height, int left, int bottom) {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-        for (int i = 0; i < draws; ++i) viewer.draw(width_, height_);
+        for (int i = 0; i < draws; ++i) viewer.draw(width, height, left, bottom);
         GLint bound = 0;
         glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
         EXPECT_EQ(static_cast<GLuint>(bound), framebuffer_.name());
+        return codes();
+    }
+
+    void fill(float grey) const {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+        glClearColor(grey, grey, grey, 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
+
+    [[nodiscard]] std::vector<int> codes() const {
         std::vector<std::uint8_t> bytes(std::size_t{4} * width_ * height_);
         glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
         std::vector<int> codes;
@@ -78,7 +96,7 @@ class Screen {
   private:
     int width_, height_;
     gl::Framebuffer framebuffer_;
-    gl::Renderbuffer picture_;
+    gl::Renderbuffer picture_, depth_;
 };
 
 std::vector<int> codes_of(const Image& linear) {
@@ -159,6 +177,58 @@ TEST_F(ViewerTest, WipesBetweenTwoMethods) {
 }
 
 // Black where two methods agree, and white where they differ by all of the scale.
+// Where there is a depth buffer, pictures that move are not drawn elsewhere first.
+TEST_F(ViewerTest, ScreensWithDepthShowTheSame) {
+    const Scene scene = small_scene("gold");
+    Screen plain(kWidth, kHeight), with_depth(kWidth, kHeight, true);
+    for (const Showing showing : {Showing::one, Showing::wipe, Showing::difference}) {
+        for (const int samples : {1, 4}) {
+            Viewer one = make_viewer(scene, samples), other = make_viewer(scene, samples);
+            for (Viewer* viewer : {&one, &other})
+                viewer->set_comparison({.showing = showing,
+                                        .other = Method::sphere_stale,
+                                        .wipe = 0.401,
+                                        .full_scale = 0.1});
+            for (int draws = 0; draws < samples + 2; ++draws) {
+                EXPECT_EQ(plain.show(one), with_depth.show(other))
+                    << name(showing) << ", draw " << draws << " of " << samples;
+                EXPECT_EQ(one.is_smooth(), other.is_smooth());
+            }
+            // Only the line moves.
+            for (Viewer* viewer : {&one, &other}) {
+                Comparison comparison = viewer->comparison();
+                comparison.wipe = 0.7;
+                viewer->set_comparison(comparison);
+            }
+            EXPECT_EQ(plain.show(one), with_depth.show(other)) << name(showing);
+        }
+    }
+}
+
+TEST_F(ViewerTest, TouchesNothingAroundItsPicture) {
+    // Even: derivatives are taken by pairs of pixels.
+    constexpr int kLeft = 8, kBottom = 6, kMargin = 20;
+    for (const bool with_depth : {false, true}) {
+        Viewer viewer = make_viewer(small_scene());
+        const std::vector<int> alone = Screen(kWidth, kHeight, with_depth).show(viewer);
+        Screen screen(kWidth + kMargin, kHeight + kMargin, with_depth);
+        screen.fill(0.2f);
+        const std::vector<int> codes = screen.show(viewer, 1, kWidth, kHeight, kLeft, kBottom);
+        const int top = kMargin - kBottom;
+        for (int y = 0; y < kHeight + kMargin; ++y) {
+            for (int x = 0; x < kWidth + kMargin; ++x) {
+                const int there_x = x - kLeft, there_y = y - top;
+                const bool inside =
+                    there_x >= 0 && there_x < kWidth && there_y >= 0 && there_y < kHeight;
+                const int expected = inside ? alone[3 * (there_y * kWidth + there_x)] : 51;
+                // Elsewhere, pixels' places are other numbers.
+                ASSERT_NEAR(codes[3 * (y * (kWidth + kMargin) + x)], expected, inside ? 1 : 0)
+                    << x << ", " << y << (with_depth ? ", with depth" : "");
+            }
+        }
+    }
+}
+
 TEST_F(ViewerTest, ShowsDifferencesInFalseColours) {
     Viewer viewer = make_viewer(small_scene());
     Screen screen(kWidth, kHeight);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct PictureOptions {
 struct DrawOptions {
     Imath::V2d shift{0, 0};  ///< in pixels, of what they show: as sample_shift() has it
     bool encoded = false;    ///< as sRGB, for a screen; else linear light
+    /// Where in the framebuffer the picture's lower left pixel is. Nothing around it is touched.
+    int left = 0, bottom = 0;
+    /// Only these columns of it, from the first to the one before the last.
+    int first_column = 0, last_column = std::numeric_limits<int>::max();
 };
 
 /// Which faces of a dynamic object's map were drawn for a picture.
