@@ -61,23 +61,23 @@ const slide = (id, value) => film.evaluate(([id, value]) => {
 }, [id, value]);
 const wave = (i, count) => 0.5 - 0.5 * Math.cos(2 * Math.PI * i / count);
 
-const kTurns = 16;
+const kTurns = 14;
 for (let i = 0; i < kTurns; ++i) {
   await film.evaluate((dx) => mirrorball.ask('orbit', [dx, 0, 400]), i < kTurns / 2 ? 18 : -18);
   await keep();
 }
 await film.evaluate(() => document.getElementById('lobe-parameter').scrollIntoView({ block: 'center' }));
-for (let i = 0; i < 16; ++i) {
-  await slide('lobe-parameter', 0.02 + 0.55 * wave(i, 16));
+for (let i = 0; i < 14; ++i) {
+  await slide('lobe-parameter', 0.02 + 0.55 * wave(i, 14));
   await keep();
 }
 await slide('lobe-parameter', 0.02);
 await film.evaluate(() => document.getElementById('method').scrollIntoView({ block: 'center' }));
-await film.selectOption('#other', 'sphere-vertex');
 await film.selectOption('#showing', 'wipe');
+await film.selectOption('#other', 'sphere-vertex');
 await film.waitForTimeout(300);
-for (let i = 0; i < 16; ++i) {
-  await slide('wipe', 0.15 + 0.7 * (1 - wave(i, 16)));
+for (let i = 0; i < 14; ++i) {
+  await slide('wipe', 0.15 + 0.7 * (1 - wave(i, 14)));
   await keep();
 }
 await browser.close();

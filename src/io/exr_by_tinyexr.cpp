@@ -55,11 +55,16 @@ struct Header : EXRHeader {
     }
 };
 
+// What the parser has not loaded to the end it frees itself.
 struct Pixels : EXRImage {
     Pixels() { InitEXRImage(this); }
-    ~Pixels() { FreeEXRImage(this); }
+    ~Pixels() {
+        if (is_loaded) FreeEXRImage(this);
+    }
     Pixels(const Pixels&) = delete;
     Pixels& operator=(const Pixels&) = delete;
+
+    bool is_loaded = false;
 };
 
 // The parser's functions give a code, and text that the caller frees.
@@ -233,6 +238,7 @@ FileContents read_picture(InputFile& file, const ReadOptions& options) {
         return LoadEXRImageFromMemory(&pixels, &header, unsigned_bytes(bytes).data(), bytes.size(),
                                       text);
     });
+    pixels.is_loaded = true;
     std::vector<Image> levels;
     for (const EXRImage* level = &pixels; level; level = level->next_level)
         levels.push_back(assemble(file, header, *level, choice.channels));

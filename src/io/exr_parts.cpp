@@ -159,7 +159,8 @@ std::uint32_t chunk_count(const InputFile& file, const ExrPart& part) {
 }
 
 void append(std::vector<std::byte>& to, std::span<const std::byte> bytes) {
-    to.insert(to.end(), bytes.begin(), bytes.end());
+    to.resize(to.size() + bytes.size());
+    std::copy(bytes.begin(), bytes.end(), to.end() - static_cast<std::ptrdiff_t>(bytes.size()));
 }
 
 template <class T>

@@ -62,11 +62,12 @@ TEST(ExrByTinyexr, LuminanceLayersAndWholeNumbers) {
 TEST(ExrByTinyexr, Levels) {
     expect_read_alike(written(kExr, exact_contents(1, 32, 16, 3)));
     expect_read_alike(written(kExr, exact_contents(6, 8, 8, 3)));
-    for (const auto [width, height] : {std::pair{16, 8}, {13, 7}, {12, 6}})
+    for (const auto& size : {V2i(16, 8), V2i(13, 7), V2i(12, 6)})
         for (const auto rounding : {Imf::ROUND_DOWN, Imf::ROUND_UP})
-            expect_read_alike(made(
-                exact_image(width, height, 3, 0, 0), kRgb, [&, r = rounding](Imf::Header& header) {
-                    header.setTileDescription(Imf::TileDescription(4, 4, Imf::MIPMAP_LEVELS, r));
+            expect_read_alike(
+                made(exact_image(size.x, size.y, 3, 0, 0), kRgb, [&](Imf::Header& header) {
+                    header.setTileDescription(
+                        Imf::TileDescription(4, 4, Imf::MIPMAP_LEVELS, rounding));
                 }));
 }
 
@@ -85,9 +86,9 @@ TEST(ExrByTinyexr, TheDisplayWindowAndTheEnvironment) {
 }
 
 TEST(ExrByTinyexr, TheFirstPartWithAPicture) {
-    const MadePart depth{exact_image(5, 4, 1, 0, 0), {"Z"}, false, Imf::DWAB_COMPRESSION};
-    const MadePart tiled{exact_image(8, 8, 3, 1, 0), kRgb, true, Imf::PIZ_COMPRESSION};
-    const MadePart lines{exact_image(6, 40, 3, 2, 0), {"left.R", "left.G", "left.B"}};
+    const MadePart depth{exact_image(8, 40, 1, 0, 0), {"Z"}, false, Imf::DWAB_COMPRESSION};
+    const MadePart tiled{exact_image(8, 40, 3, 1, 0), kRgb, true, Imf::PIZ_COMPRESSION};
+    const MadePart lines{exact_image(8, 40, 3, 2, 0), {"left.R", "left.G", "left.B"}};
     expect_read_alike(made_parts({depth, tiled, lines}));
     expect_read_alike(made_parts({depth, lines, tiled}));
     expect_read_alike(made_parts({lines, tiled}));
@@ -121,7 +122,7 @@ TEST(ExrByTinyexr, EveryTruncationIsRefused) {
     expect_truncations_refused(kExrByTinyexr, written(kExr, exact_contents(1, 4, 4, 1)));
     expect_truncations_refused(kExrByTinyexr, written(kExr, exact_contents(6, 2, 2, 2)));
     expect_truncations_refused(kExrByTinyexr,
-                               made_parts({{exact_image(2, 2, 1, 0, 0), {"Z"}},
+                               made_parts({{exact_image(3, 2, 1, 0, 0), {"Z"}},
                                            {exact_image(3, 2, 3, 0, 0), {"R", "G", "B"}}}));
 }
 

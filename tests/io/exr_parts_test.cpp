@@ -18,9 +18,9 @@ Bytes cut(const Bytes& bytes, std::size_t part) {
 }
 
 std::vector<MadePart> three_parts() {
-    return {{exact_image(5, 4, 1, 0, 0), {"Z"}},
-            {exact_image(8, 8, 3, 1, 0), {"R", "G", "B"}, true, Imf::RLE_COMPRESSION},
-            {exact_image(6, 40, 4, 2, 0), {"R", "G", "B", "A"}, false, Imf::PIZ_COMPRESSION}};
+    return {{exact_image(8, 40, 1, 0, 0), {"Z"}},
+            {exact_image(8, 40, 3, 1, 0), {"R", "G", "B"}, true, Imf::RLE_COMPRESSION},
+            {exact_image(8, 40, 4, 2, 0), {"R", "G", "B", "A"}, false, Imf::PIZ_COMPRESSION}};
 }
 
 TEST(ExrParts, HeadersSayWhatThereIs) {
@@ -50,7 +50,7 @@ TEST(ExrParts, AloneTheyHoldWhatTheyDidTogether) {
 
 TEST(ExrParts, NoDamageLeadsBeyondTheBytes) {
     const Bytes bytes = made_parts(
-        {{exact_image(2, 2, 1, 0, 0), {"Z"}}, {exact_image(3, 2, 3, 0, 0), {"R", "G", "B"}}});
+        {{exact_image(3, 2, 1, 0, 0), {"Z"}}, {exact_image(3, 2, 3, 0, 0), {"R", "G", "B"}}});
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         const Bytes shorter(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length));
         EXPECT_THROW(static_cast<void>(cut(shorter, 1)), Error) << length;
