@@ -38,8 +38,8 @@ struct SurfacePoint {
 /// maps too, so that of a filter of bumps this is the truth for a point, not for a pixel.
 class DirectShading {
   public:
-    /// \pre all outlive this; `maps` has the lobes of the scene's glossy materials, and are sphere
-    /// maps if one has a bump map of the classic form
+    /// \pre all outlive this; `maps` are of the environment as the scene turns it, have the lobes
+    /// of its glossy materials, and are sphere maps if one has a bump map of the classic form
     DirectShading(const Scene& scene, const SceneAssets& assets, const ReflectionMaps& maps);
     ~DirectShading();
 

@@ -27,7 +27,8 @@ struct SceneAssets {
     std::map<std::string, Image> pictures;  ///< linear, three channels
     /// Of those that do not move, by bump_key().
     std::map<std::string, std::shared_ptr<const BumpTexels>> bumps;
-    /// Turned as the scene says; its intensity is applied when shading.
+    /// As its file has it: the scene turns and scales it when it is drawn, by turned() and its
+    /// intensity.
     EnvironmentMap environment;
 };
 
@@ -50,11 +51,11 @@ struct AssetOptions {
 /// What it has not got. \throws Error as above
 void load_missing(SceneAssets& assets, const Scene& scene, const std::filesystem::path& folder,
                   const AssetOptions& options = {});
-/// The environment as its file has it, not turned yet. \throws Error as read_map() does
+/// \throws Error as read_map() does
 [[nodiscard]] LoadedMap load_environment(const SceneEnvironment& environment,
                                          const std::filesystem::path& folder,
                                          const AssetOptions& options = {});
-/// The axes of such a map as the scene turns it.
+/// The axes of a map of the environment as the scene turns it.
 [[nodiscard]] Axes turned(const Axes& axes, const SceneEnvironment& environment);
 
 /// Whether a bump map's source changes with time.

@@ -18,11 +18,12 @@ constexpr int kTimedFrames = 9;
 
 // The environment itself for mirrors; for other terms maps of twice the usual fineness.
 ReflectionMaps true_maps(const LoadedScene& loaded) {
-    const EnvironmentMap& environment = loaded.assets->environment;
+    EnvironmentMap environment = loaded.assets->environment;
+    environment.axes = turned(environment.axes, loaded.scene.environment);
     ReflectionMaps maps = make_reflection_maps(
         environment, lobes_of(loaded.scene), Projection::cube,
         2 * mirror_map_size(environment, Projection::cube), default_axes(Projection::cube));
-    maps.mirror = environment;
+    maps.mirror = std::move(environment);
     return maps;
 }
 

@@ -528,7 +528,7 @@ void Painter::background(const Scene& scene, const Shot& shot, bool plain) {
     program.set("u_eye", shot.views[0].eye);
     program.set("u_background", environment.background_color);
     program.set("u_intensity", static_cast<float>(environment.intensity));
-    program.set("u_to_map", to_map_matrix(default_axes(Projection::cube)));
+    program.set("u_to_map", to_map_matrix(turned(default_axes(Projection::cube), environment)));
     cube.bind(kMirrorUnit);
     if (level) program.set("u_level", *level);
     program.set("u_mirror_map", kMirrorUnit);

@@ -191,7 +191,7 @@ void Renderer::Impl::forget_maps() {
 void Renderer::Impl::make_maps(const Scene& scene) {
     check_scene(scene);
     maps_ = &maps_for(scene, scene.method);
-    maps_->look_from(axes(scene.camera));
+    maps_->look_from(axes(scene.camera), scene.environment);
     if (!has_dynamic_objects(scene)) return;
     dynamic_.update(scene, painter_, maps_for(scene, Method::cube));
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <mirrorball/reflection_maps.h>
+#include <mirrorball/scene_assets.h>
 
 #include "core/part_of.h"
 #include "scene/method_lookup.h"
@@ -20,6 +21,11 @@ namespace {
 bool is_warped(Method method) {
     const Projection projection = projection_of(method);
     return projection == Projection::sphere || projection == Projection::dual_paraboloid;
+}
+
+// In whose frame sphere maps are looked up, and which the environment's turn is not part of.
+bool is_for_camera(Method method) {
+    return projection_of(method) == Projection::sphere;
 }
 
 // The edge (of an equirect the width) of a map that is as fine as a cube whose faces have `size`.
@@ -140,16 +146,20 @@ std::size_t SceneMaps::index_of(const Lobe& lobe) const {
     return static_cast<std::size_t>(found - lobes_.begin());
 }
 
-void SceneMaps::look_from(const Axes& camera) {
-    const bool for_camera = projection_of(method_) == Projection::sphere;
-    if (!warped_ || (made_for_ && (!for_camera || *made_for_ == camera))) return;
-    warped_->make(maps_, axes_, camera);
-    made_for_ = camera;
+void SceneMaps::look_from(const Axes& camera, const SceneEnvironment& environment) {
+    if (!warped_) return;
+    const std::pair made_for = is_for_camera(method_)
+                                   ? std::pair(turned(axes_, environment), camera)
+                                   : std::pair(axes_, Axes());
+    if (made_for_ == made_for) return;
+    warped_->make(maps_, made_for.first, made_for.second);
+    made_for_ = made_for;
 }
 
 LookupMaps SceneMaps::lookup(const Material& material, const SceneEnvironment& environment) const {
+    const Axes& axes = warped_ ? warped_->axes() : axes_;
     return {method_,
-            warped_ ? warped_->axes() : axes_,
+            is_for_camera(method_) ? axes : turned(axes, environment),
             &shown(),
             &shown().diffuse,
             index_of(material.lobe),

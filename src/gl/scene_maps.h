@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <mirrorball/prefilter.h>
@@ -16,6 +17,8 @@
 
 namespace mirrorball::gl {
 
+/// They are made of the environment as its file has it. Where it is turned, so are lookups: that
+/// costs nothing but maps that are made for the camera.
 class SceneMaps {
   public:
     /// Of the filter's source. `size` is the edge of a cube's face; other maps are as fine as such
@@ -28,8 +31,8 @@ class SceneMaps {
     /// scene may come back to them; a lobe's map is the same whenever it is made.
     void set_lobes(std::span<const Lobe> lobes, const Progress& progress = {});
 
-    /// Re-makes maps that depend on where the camera looks.
-    void look_from(const Axes& camera);
+    /// Re-makes maps that depend on where the camera looks in an environment that is turned so.
+    void look_from(const Axes& camera, const SceneEnvironment& environment);
 
     /// For a surface with this material in a scene with that environment, if its lobe is set.
     [[nodiscard]] LookupMaps lookup(const Material& material,
@@ -64,8 +67,8 @@ class SceneMaps {
     MapTextures maps_;
     std::vector<Kept> lobes_;  // of maps_.glossy
     std::uint64_t turn_ = 0;
-    std::optional<MethodMaps> warped_;  // of maps with rims
-    std::optional<Axes> made_for_;      // the camera that those were last made for
+    std::optional<MethodMaps> warped_;               // of maps with rims
+    std::optional<std::pair<Axes, Axes>> made_for_;  // with these axes of maps_, for this camera
 };
 
 }  // namespace mirrorball::gl

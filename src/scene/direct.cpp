@@ -165,6 +165,7 @@ class DirectShading::Impl {
         : scene_(scene),
           assets_(assets),
           maps_(maps),
+          unturned_(turned(Axes(), scene.environment)),
           lights_(lights_now(scene)) {
         for (const SceneObject& object : scene.objects) surfaces_.push_back(surface_of(object));
     }
@@ -192,8 +193,8 @@ class DirectShading::Impl {
     [[nodiscard]] Vec3d background(const Vec3d& eye, const Vec3d& direction) const {
         const SceneEnvironment& environment = scene_.environment;
         if (!environment.background) return environment.background_color;
-        return Vec3d(look_up(assets_.environment, seen_from_capture(environment, eye, direction))) *
-               environment.intensity;
+        const Vec3d seen = unturned_.to_map(seen_from_capture(environment, eye, direction));
+        return Vec3d(look_up(assets_.environment, seen)) * environment.intensity;
     }
 
   private:
@@ -414,6 +415,7 @@ class DirectShading::Impl {
     const Scene& scene_;
     const SceneAssets& assets_;
     const ReflectionMaps& maps_;
+    Axes unturned_;                   // the world's, of which the environment knows nothing
     std::vector<SceneLight> lights_;  // where they are at the scene's time
     std::vector<Surface> surfaces_;   // one per object
 };

@@ -243,7 +243,6 @@ SceneAssets load_assets(const Scene& scene, const std::filesystem::path& folder,
         AssetOptions left = options;
         left.memory_limit = budget.left();
         assets.environment = load_environment(scene.environment, folder, left).map;
-        assets.environment.axes = turned(assets.environment.axes, scene.environment);
         budget.spend(bytes_of(assets.environment), scene.environment.source);
     });
     return assets;

@@ -152,7 +152,6 @@ class Viewer::Impl {
     void add_sample(Side& side, Method method);
     void show(int left, int bottom);
 
-    Axes environment_axes_;  // of the environment before it is turned
     double usual_exposure_ = 1;
     Side sides_[2];
     gl::ProgramCache programs_;
@@ -162,7 +161,6 @@ class Viewer::Impl {
 };
 
 void Viewer::Impl::take_environment(const LoadedMap& loaded) {
-    environment_axes_ = loaded.map.axes;
     notes_ = loaded.notes;
     notes_.insert(notes_.begin(), fmt::format("{}, {} {}", loaded.format,
                                               name(loaded.map.projection), size_text(loaded.map)));
@@ -185,13 +183,10 @@ void Viewer::Impl::set(const Scene& scene, const std::string& anew) {
         show_environment(scene, load_environment(scene.environment, folder_, asset_options()));
         return;
     }
-    const Axes axes = turned(environment_axes_, scene.environment);
-    if (axes == assets_->environment.axes && anew.empty() && is_loaded(scene, *assets_))
-        return adopt(scene, assets_);
+    if (anew.empty() && is_loaded(scene, *assets_)) return adopt(scene, assets_);
     SceneAssets assets = *assets_;
     assets.meshes.erase(anew);
     load_missing(assets, scene, folder_, asset_options());
-    assets.environment.axes = axes;
     adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
 }
 
@@ -203,7 +198,6 @@ void Viewer::Impl::show_environment(Scene scene, LoadedMap map) {
     load_missing(assets, scene, folder_, asset_options());
     take_environment(map);
     assets.environment = std::move(map.map);
-    assets.environment.axes = turned(environment_axes_, scene.environment);
     adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
 }
 
@@ -213,7 +207,6 @@ void Viewer::Impl::open(const Scene& scene, const fs::path& folder) {
     LoadedMap map = load_environment(scene.environment, folder, asset_options());
     take_environment(map);
     assets.environment = std::move(map.map);
-    assets.environment.axes = turned(environment_axes_, scene.environment);
     folder_ = folder;
     selected_ = 0;
     adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
@@ -534,7 +527,7 @@ Axes Viewer::axes_of_map(Projection projection) const {
 
 const ScreenPicture& Viewer::map_picture(MapContent content, Projection projection, int height) {
     ShownMaps::Look look;
-    look.environment = assets().environment.axes;
+    look.environment = turned(assets().environment.axes, scene().environment);
     look.exposure = exposure() * scene().environment.intensity;
     look.tone_map = scene().tone_map;
     look.axes = axes_of_map(projection);

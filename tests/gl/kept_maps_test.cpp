@@ -1,5 +1,6 @@
 // What a renderer keeps from picture to picture must not show.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -22,6 +23,13 @@ Image seen(Renderer& renderer, const Scene& scene) {
 
 bool same_bits(const Image& a, const Image& b) {
     return std::equal(a.values().begin(), a.values().end(), b.values().begin(), b.values().end());
+}
+
+double mean_difference(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.values().size(); ++i)
+        sum += std::abs(a.values()[i] - b.values()[i]);
+    return sum / static_cast<double>(a.values().size());
 }
 
 // A slider goes away and comes back.
@@ -50,6 +58,31 @@ TEST_F(KeptMapsTest, NorOnOtherMethods) {
     for (std::size_t i = first.size(); i-- > 0;) {
         const Scene scene = glossy_scene(0.4, all_methods()[i]);
         EXPECT_TRUE(same_bits(seen(renderer, scene), first[i])) << name(scene.method);
+    }
+}
+
+// A scene that turns its environment shows what one in the turned environment does, and turning
+// back the same bits.
+TEST_F(KeptMapsTest, TurnedEnvironmentsNeedNoNewMaps) {
+    const auto assets = assets_in(smooth_environment());
+    for (const Method method : all_methods()) {
+        Renderer renderer(assets);
+        const Scene straight = glossy_scene(0.4, method);
+        const Image first = seen(renderer, straight);
+        Scene turning = straight;
+        turning.environment.yaw = 0.7, turning.environment.pitch = -0.4;
+        turning.environment.roll = 0.2;
+        const Image turned_scene = seen(renderer, turning);
+
+        auto turned_assets = std::make_shared<SceneAssets>(*assets);
+        Axes& axes = turned_assets->environment.axes;
+        axes = turned(axes, turning.environment);
+        Renderer other(turned_assets);
+        const Image turned_map = seen(other, straight);
+        EXPECT_GT(mean_difference(turned_scene, first), 0.05) << name(method);
+        // Those that split or interpolate polygons do it elsewhere.
+        EXPECT_LT(mean_difference(turned_scene, turned_map), 0.006) << name(method);
+        EXPECT_TRUE(same_bits(seen(renderer, straight), first)) << name(method);
     }
 }
 

@@ -25,9 +25,12 @@ std::string with_header(const std::string& method, const std::string& more) {
     const std::string methods = shader_source("methods.glsl", {});
     const std::string header =
         methods.substr(0, methods.size() - shader_files().at("methods.glsl").size());
-    const std::string light = shader_source("light_per_pixel.glsl", {}).substr(header.size());
-    return header + "#define METHOD " + method + "\n#define HAS_ROUGH_MAP\n" +
-           methods.substr(header.size()) + light + more;
+    const auto text = [&](const char* file) {
+        return shader_source(file, {}).substr(header.size());
+    };
+    return header + "#define METHOD " + method +
+           "\n#define HAS_ROUGH_MAP\n#define PROXY NO_PROXY\n" + text("methods.glsl") +
+           text("proxy.glsl") + text("light_per_pixel.glsl") + more;
 }
 
 GLuint compiled(GLenum stage, const std::string& source) {
@@ -172,7 +175,7 @@ void expect_rough_light(Method method) {
                                                          default_axes(projection), {.rough = true});
     SceneMaps maps(filter_of(sky), method, kFace, true);
     const bool is_stale = method == Method::sphere_stale;  // right for this camera only
-    maps.look_from(axes(is_stale ? Camera{} : Camera{{1, 2, 3}}));
+    maps.look_from(axes(is_stale ? Camera{} : Camera{{1, 2, 3}}), {});
     const LookupMaps lookup = maps.lookup({}, {});
     ASSERT_FALSE(lookup.textures->rough.empty());
     EXPECT_EQ(lookup.textures->rough.level_count, expected.rough.level_count());
