@@ -25,11 +25,18 @@ async function open(scene, options) {
   await settled(page);
   return page;
 }
-// All that was asked for is done, and the picture smooth.
+// The picture is smooth, and nothing goes on.
 async function settled(page) {
-  await page.evaluate(() => mirrorball.ask('screenshot'));
-  await page.waitForFunction(() => !document.body.classList.contains('busy'));
+  await page.waitForFunction(() => document.body.dataset.smooth === 'true' &&
+    !document.body.classList.contains('busy'), null, { timeout: 60_000 });
   await page.waitForTimeout(150);
+}
+// The same after a change, which is drawn before it is smooth.
+async function change(page, act) {
+  const count = await page.evaluate(() => Number(document.body.dataset.changes));
+  await act();
+  await page.waitForFunction((count) => Number(document.body.dataset.changes) > count, count);
+  await settled(page);
 }
 
 const wide = await open(kScene(), { viewport: { width: 1280, height: 800 }, colorScheme: 'dark' });
@@ -50,8 +57,8 @@ await phone.close();
 const film = await open(kScene({ objects: [{ mesh: 'teapot', material: 'satin-gold' }] }),
   { viewport: { width: 940, height: 560 }, colorScheme: 'dark' });
 let count = 0;
-async function keep() {
-  await settled(film);
+async function keep(act) {
+  await change(film, act);
   await film.screenshot({ path: join(folder, `frame-${String(count++).padStart(3, '0')}.png`) });
 }
 const slide = (id, value) => film.evaluate(([id, value]) => {
@@ -63,22 +70,19 @@ const wave = (i, count) => 0.5 - 0.5 * Math.cos(2 * Math.PI * i / count);
 
 const kTurns = 14;
 for (let i = 0; i < kTurns; ++i) {
-  await film.evaluate((dx) => mirrorball.ask('orbit', [dx, 0, 400]), i < kTurns / 2 ? 18 : -18);
-  await keep();
+  const dx = i < kTurns / 2 ? 18 : -18;
+  await keep(() => film.evaluate((dx) => mirrorball.ask('orbit', [dx, 0, 400]), dx));
 }
 await film.evaluate(() => document.getElementById('lobe-parameter').scrollIntoView({ block: 'center' }));
 for (let i = 0; i < 14; ++i) {
-  await slide('lobe-parameter', 0.02 + 0.55 * wave(i, 14));
-  await keep();
+  await keep(() => slide('lobe-parameter', 0.02 + 0.55 * wave(i, 14)));
 }
-await slide('lobe-parameter', 0.02);
+await change(film, () => slide('lobe-parameter', 0.02));
 await film.evaluate(() => document.getElementById('method').scrollIntoView({ block: 'center' }));
-await film.selectOption('#showing', 'wipe');
-await film.selectOption('#other', 'sphere-vertex');
-await film.waitForTimeout(300);
+await change(film, () => film.selectOption('#showing', 'wipe'));
+await change(film, () => film.selectOption('#other', 'sphere-vertex'));
 for (let i = 0; i < 14; ++i) {
-  await slide('wipe', 0.15 + 0.7 * (1 - wave(i, 14)));
-  await keep();
+  await keep(() => slide('wipe', 0.15 + 0.7 * (1 - wave(i, 14))));
 }
 await browser.close();
 server.close();
