@@ -2,8 +2,8 @@
 // whatever is read or prefiltered here.
 //
 // The page asks {id, call, args} and is answered {id, result}; a result with an `error` is a failure
-// in the library's words. Unasked it is told: {stage} what takes its time, {frame} after each picture,
-// {maps} the maps' pictures when they have changed.
+// in the library's words. Unasked it is told: {stage, share} what takes its time and how much of it is
+// done, where that is known; {frame} after each picture; {maps} the maps' pictures when they have changed.
 import load_mirrorball from './mirrorball.js';
 
 const kFolder = '/files';
@@ -18,11 +18,42 @@ const parsed = (text) => JSON.parse(text, (key, value) =>
   key === 'error' ? value.replaceAll(`${kFolder}/`, '') : value);
 const tell = (message, transfer = []) => self.postMessage(message, transfer);
 
+// Progress ---------------------------------------------------------------------------------------
+
+// What takes less than this says nothing, and no two words come nearer one another: milliseconds.
+const kPatience = 50, kBetweenWords = 30;
+// Of the call that runs: its beginning, what it is about, and what was said of it.
+let began = 0, about = '', said = '', said_at = 0;
+const kWords = { reading: 'Reading', prefiltering: 'Prefiltering', drawing: 'Drawing' };
+
+function begin(what = '') {
+  [began, about] = [performance.now(), what];
+}
+
+function say(stage, share) {
+  [said, said_at] = [stage, performance.now()];
+  tell({ stage, share });
+}
+
+function be_quiet() {
+  if (said) say('');
+}
+
+// The library calls this from the midst of its work; messages leave at once.
+function on_progress(what, share) {
+  const stage = `${[kWords[what], what !== 'prefiltering' && about].filter(Boolean).join(' ')} …`;
+  const now = performance.now();
+  if (now - began < kPatience || (stage === said && now - said_at < kBetweenWords)) return;
+  say(stage, share);
+}
+
 // Drawing ----------------------------------------------------------------------------------------
 
 function draw_once() {
   const start = performance.now();
+  begin(about);
   const answer = parsed(page.draw(canvas.width, canvas.height));
+  be_quiet();
   // Reading one pixel waits for the picture: the time is that of all of it.
   gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   return { ...answer, milliseconds: performance.now() - start, count: ++drawn_count };
@@ -121,9 +152,12 @@ function pfm(width, height, values) {
   return file;
 }
 
-async function open_file(name, buffer) {
+const safe_name = (name) => name.replace(/[/,\0]/g, '_') || 'file';
+
+// Into the file system of the module, where the library finds it.
+async function put_file(name, buffer) {
   let bytes = new Uint8Array(buffer);
-  const safe = name.replace(/[/,\0]/g, '_') || 'file';
+  const safe = safe_name(name);
   if (is_picture(bytes)) {
     try {
       bytes = await decoded(bytes);
@@ -132,6 +166,13 @@ async function open_file(name, buffer) {
     }
   }
   module.FS.writeFile(`${kFolder}/${safe}`, bytes);
+  return {};
+}
+
+async function open_file(name, buffer) {
+  const safe = safe_name(name);
+  const put = await put_file(name, buffer);
+  if (put.error) return put;
   // By its name alone, as on a command line in the file's folder: messages say no more of it.
   const answer = parsed(page.drop(safe));
   if (answer.error) module.FS.unlink(`${kFolder}/${safe}`);
@@ -142,7 +183,7 @@ async function open_file(name, buffer) {
 
 const calls = {
   async start(target, width, height, state) {
-    tell({ stage: 'Loading the library …' });
+    say('Loading the library …');
     module = await load_mirrorball();
     canvas = target;
     full = [width, height];
@@ -159,8 +200,7 @@ const calls = {
       return { error: 'This graphics driver draws no half-float pictures (EXT_color_buffer_float).' };
     module.FS.mkdir(kFolder);
     module.FS.chdir(kFolder);
-    page = new module.Page();
-    tell({ stage: 'Prefiltering …' });
+    page = new module.Page(on_progress);
     let answer = parsed(page.open(state, width / height));
     let warning;
     if (answer.error && state) {
@@ -168,6 +208,7 @@ const calls = {
       answer = parsed(page.open('', width / height));
     }
     if (answer.error) return answer;
+    say('Prefiltering …');
     drawable = true;
     set_size(share = 0.5);
     const first = draw_once();
@@ -187,20 +228,23 @@ const calls = {
   },
   status: () => parsed(page.status()),
   async open_file(name, buffer) {
-    tell({ stage: `Reading ${name} …` });
+    begin(name);
+    say(`Reading ${name} …`);
     const answer = await open_file(name, buffer);
     if (answer.error) return answer;
-    tell({ stage: 'Prefiltering …' });
+    say('Prefiltering …');
     const start = performance.now();
     set_size(share);
     const frame = draw_once();
     tell({ frame });
     return frame.error ? frame : { ...answer, milliseconds: performance.now() - start };
   },
+  put_file,
   // Of a worker that draws nothing, for one that does.
   async builtin(source) {
     module ??= await load_mirrorball();
-    page ??= new module.Page();
+    page ??= new module.Page(on_progress);
+    begin(source.replace('builtin:', ''));
     const map = page.builtin(source);
     if (map.error) return { error: map.error };
     return { width: map.width, height: map.height, values: new Float32Array(map.values) };
@@ -213,6 +257,7 @@ const calls = {
     return answer;
   },
   set_scene: (scene) => parsed(page.set_scene(JSON.stringify(scene))),
+  edit_scene: (scene) => parsed(page.edit_scene(JSON.stringify(scene))),
   set_state: (state) => parsed(page.set_state(state)),
   set_comparison: (...all) => parsed(page.set_comparison(...all)),
   set_stops: (stops) => parsed(page.set_stops(stops)),
@@ -238,18 +283,19 @@ const calls = {
 };
 
 // Calls change nothing in the picture, or it is drawn anew.
-const silent = new Set(['status', 'hover', 'screenshot', 'builtin', 'show_maps']);
+const silent = new Set(['status', 'hover', 'screenshot', 'builtin', 'put_file', 'show_maps']);
 let last = Promise.resolve();
 
 async function answer({ id, call, args }) {
   let result;
+  begin();
   try {
     result = await calls[call](...args);
   } catch (error) {
     result = { error: `The library stopped: ${error?.message ?? error}. Load the page again.` };
   }
   tell({ id, result: result ?? {} });
-  if (call === 'start' || call === 'open_file') tell({ stage: '' });
+  be_quiet();
   if (!silent.has(call)) schedule();
   if (call === 'show_maps') rest();
 }

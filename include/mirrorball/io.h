@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <mirrorball/environment_map.h>
+#include <mirrorball/progress.h>
 
 namespace mirrorball {
 
@@ -78,6 +79,8 @@ struct FileContents {
 struct ReadOptions {
     Transfer transfer = Transfer::automatic;
     std::uint64_t memory_limit = kUnlimitedMemory;
+    /// How far into its files reading is; of built-in environments, how much is drawn.
+    Progress progress = {};
 };
 
 struct WriteOptions {

@@ -92,7 +92,8 @@ class LobeFilter {
 
     /// Like PrefilterPlan, to its tolerance, not bit by bit. The bits depend on the source, the
     /// options and the target: not on threads, nor on what was asked for before.
-    [[nodiscard]] EnvironmentMap operator()(const PrefilterTarget& target);
+    [[nodiscard]] EnvironmentMap operator()(const PrefilterTarget& target,
+                                            const Progress& progress = {});
 
     /// Does it take at most 512 bands and no sum over the whole source? Of a panorama of 1024
     /// texels' width GGX from a roughness of 0.11 up does, to maps as fine as it asks for: some ten

@@ -43,7 +43,8 @@ struct ReflectionMapOptions {
 /// The same maps one by one, for those who make them when a scene first asks for one: as resample()
 /// and PrefilterPlan or LobeFilter make them. Of `rough` one for each level.
 [[nodiscard]] EnvironmentMap make_mirror_map(const EnvironmentMap& environment,
-                                             Projection projection, int size, const Axes& axes);
+                                             Projection projection, int size, const Axes& axes,
+                                             const Progress& progress = {});
 [[nodiscard]] PrefilterTarget glossy_target(const EnvironmentMap& environment, const Lobe& lobe,
                                             Projection projection, const Axes& axes);
 [[nodiscard]] PrefilterTarget diffuse_target(Projection projection, const Axes& axes);

@@ -41,6 +41,7 @@ struct SceneAssets {
 struct AssetOptions {
     std::uint64_t memory_limit = kUnlimitedMemory;  ///< bytes that all of them may hold
     int mesh_detail = 0;                            ///< of built-in meshes, as make_mesh() takes it
+    int builtin_width = 0;  ///< of built-in environments, in texels; 0: as read_map() has them
 };
 
 /// A mesh's name is one of builtin_meshes(), or a file like all others: relative to `folder`, that

@@ -16,6 +16,7 @@
 
 #include <mirrorball/io.h>
 #include <mirrorball/map_pictures.h>
+#include <mirrorball/progress.h>
 #include <mirrorball/scene.h>
 #include <mirrorball/scene_assets.h>
 
@@ -81,6 +82,11 @@ class Viewer {
         /// Pictures that differ by parts of a pixel and are averaged while nothing changes: as
         /// Renderer::picture() has them. 1: none.
         int sample_count = 8;
+        /// Of built-in environments, in texels; 0: the usual ones. They take seconds to draw, so
+        /// who draws them elsewhere has coarse ones until drop_environment() brings the whole.
+        int builtin_width = 0;
+        Progress reading = {};       ///< of a file that is dropped, as ReadOptions has it
+        Progress prefiltering = {};  ///< of a picture's maps, where it needs new ones
     };
 
     /// A teapot of chrome in the sunset. \pre an OpenGL context is current, here and in all else

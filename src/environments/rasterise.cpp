@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/part_of.h"
 
 namespace mirrorball::detail {
 namespace {
@@ -34,11 +35,6 @@ constexpr double kFirstPassShare = 0.6;  // of the progress
 
 // The disc's points: so many per texel, but at least as many as its own darkening needs.
 constexpr double kPointsPerTexel = 1024, kFewestPoints = 4096, kMostPoints = 1 << 22;
-
-Progress part_of(const Progress& progress, double from, double to) {
-    if (!progress) return {};
-    return [=, &progress](double fraction) { return progress(from + (to - from) * fraction); };
-}
 
 template <class P>
 class Rasteriser {

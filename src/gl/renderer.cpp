@@ -14,6 +14,7 @@
 #include <mirrorball/projections/cube.h>
 
 #include "check.h"
+#include "core/part_of.h"
 #include "dynamic_maps.h"
 #include "painter.h"
 #include "same_assets.h"
@@ -27,6 +28,8 @@ namespace {
 constexpr int kMostLights = 16;
 // Of maps by several methods, beyond which those that are not drawn with go.
 constexpr std::uint64_t kMostMapBytes = 256 << 20;
+// Of the progress, if maps of lobes come after those that every scene has.
+constexpr double kUsualMapsShare = 0.5;
 
 void check_range(const char* what, int value, int least, int most) {
     if (value >= least && value <= most) return;
@@ -103,6 +106,7 @@ class Renderer::Impl {
           painter_(std::move(assets)) {}
 
     void set_assets(std::shared_ptr<const SceneAssets> assets);
+    void report_to(Progress progress) { progress_ = std::move(progress); }
     Image picture(const Scene& scene, const PictureOptions& options);
     /// Makes the scene's maps, then one picture.
     void draw(const Scene& scene, int width, int height, const DrawOptions& options = {});
@@ -138,6 +142,7 @@ class Renderer::Impl {
     SceneMaps* maps_ = nullptr;           // of the scene's method; one of those
     DynamicMaps dynamic_;
     std::optional<Target> target_;
+    Progress progress_;  // of making maps
 };
 
 void Renderer::Impl::set_assets(std::shared_ptr<const SceneAssets> assets) {
@@ -152,6 +157,8 @@ void Renderer::Impl::set_assets(std::shared_ptr<const SceneAssets> assets) {
 
 SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method, bool quick) {
     const MapsKey key{method, map_size(scene, *assets_), gets_rougher(scene)};
+    const std::vector<Lobe> lobes = lobes_of(scene);
+    double begun = 0;  // of the progress
     const auto found = std::find_if(kept_.begin(), kept_.end(),
                                     [&](const KeptMaps& kept) { return kept.key == key; });
     if (found != kept_.end()) {
@@ -162,10 +169,12 @@ SceneMaps& Renderer::Impl::maps_for(const Scene& scene, Method method, bool quic
             filter_ = std::make_shared<LobeFilter>(
                 std::shared_ptr<const EnvironmentMap>(assets_, &assets_->environment));
         }
-        kept_.push_front(
-            {key, SceneMaps(filter_, key.method, key.size, key.rough, assets_->baked)});
+        const double end = lobes.empty() ? 1 : kUsualMapsShare;
+        kept_.push_front({key, SceneMaps(filter_, key.method, key.size, key.rough, assets_->baked,
+                                         detail::part_of(progress_, 0, end))});
+        begun = end;
     }
-    kept_.front().maps.set_lobes(lobes_of(scene), quick);
+    kept_.front().maps.set_lobes(lobes, quick, detail::part_of(progress_, begun, 1));
     return kept_.front().maps;
 }
 
@@ -326,6 +335,10 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::set_assets(std::shared_ptr<const SceneAssets> assets) {
     impl_->set_assets(std::move(assets));
+}
+
+void Renderer::report_to(Progress progress) {
+    impl_->report_to(std::move(progress));
 }
 
 Image Renderer::picture(const Scene& scene, const PictureOptions& options) {

@@ -7,9 +7,13 @@
 #include <mirrorball/reflection_maps.h>
 #include <mirrorball/scene_assets.h>
 
+#include "core/part_of.h"
 #include "scene/method_lookup.h"
 
 namespace mirrorball::gl {
+
+using detail::part_of;
+
 namespace {
 
 // Maps with rims are cut out of cubes on the graphics card: sphere maps for each camera anew, and
@@ -33,6 +37,9 @@ int size_as_fine(const EnvironmentMap& environment, Projection projection, int s
 
 constexpr std::uint64_t kMostUnusedBytes = 64 << 20;
 
+// Of the progress, about.
+constexpr double kMirrorShare = 0.3, kDiffuseEnd = 0.5;
+
 Texture uploaded(const EnvironmentMap& map, Method method) {
     return method == Method::cube_seams ? upload_face_array(map) : upload(map);
 }
@@ -40,7 +47,7 @@ Texture uploaded(const EnvironmentMap& map, Method method) {
 }  // namespace
 
 SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough,
-                     std::shared_ptr<const BakedMaps> baked)
+                     std::shared_ptr<const BakedMaps> baked, const Progress& progress)
     : filter_(std::move(filter)),
       baked_(std::move(baked)),
       method_(method),
@@ -51,28 +58,40 @@ SceneMaps::SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size
     const int map_size = size_as_fine(environment, projection_, size);
     // Before it takes time and memory.
     check_texture_size(target_for(projection_), map_size, 1);
-    const EnvironmentMap mirror = make_mirror_map(environment, projection_, map_size, axes_);
+    const EnvironmentMap mirror = make_mirror_map(environment, projection_, map_size, axes_,
+                                                  part_of(progress, 0, kMirrorShare));
     maps_.mirror = uploaded(mirror, method);
     if (method == Method::cube_split) maps_.mirror_faces = upload_faces(mirror);
-    maps_.diffuse = uploaded(filtered(diffuse_target(projection_, axes_)), method);
     // A roughness for each pixel takes a lookup for each.
-    if (rough && detail::looks_up_per_pixel(method)) make_rough();
+    const bool gets_rough = rough && detail::looks_up_per_pixel(method);
+    const double diffuse_end = gets_rough ? kDiffuseEnd : 1;
+    maps_.diffuse = uploaded(
+        filtered(diffuse_target(projection_, axes_), part_of(progress, kMirrorShare, diffuse_end)),
+        method);
+    if (gets_rough) make_rough(part_of(progress, diffuse_end, 1));
     if (is_warped(method)) warped_.emplace(method, maps_);
 }
 
-EnvironmentMap SceneMaps::filtered(const PrefilterTarget& target) const {
-    return baked_ ? (*baked_)(target) : (*filter_)(target);
+EnvironmentMap SceneMaps::filtered(const PrefilterTarget& target, const Progress& progress) const {
+    return baked_ ? (*baked_)(target) : (*filter_)(target, progress);
 }
 
-void SceneMaps::make_rough() {
+void SceneMaps::make_rough(const Progress& progress) {
     std::vector<EnvironmentMap> levels;
-    for (const PrefilterTarget& target : rough_targets(filter_->source(), projection_, axes_))
-        levels.push_back(filtered(target));
+    const std::vector<PrefilterTarget> targets =
+        rough_targets(filter_->source(), projection_, axes_);
+    const auto count = static_cast<double>(targets.size());
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const auto begun = static_cast<double>(i);
+        levels.push_back(
+            filtered(targets[i], part_of(progress, begun / count, (begun + 1) / count)));
+    }
     maps_.rough = uploaded(levels_of(levels), method_);
 }
 
-void SceneMaps::make_glossy(const Lobe& lobe) {
-    const EnvironmentMap map = filtered(glossy_target(filter_->source(), lobe, projection_, axes_));
+void SceneMaps::make_glossy(const Lobe& lobe, const Progress& progress) {
+    const EnvironmentMap map =
+        filtered(glossy_target(filter_->source(), lobe, projection_, axes_), progress);
     Texture texture = uploaded(map, method_);
     if (method_ == Method::cube_split) maps_.glossy_faces.push_back(upload_faces(map));
     maps_.glossy.push_back(std::move(texture));
@@ -81,22 +100,26 @@ void SceneMaps::make_glossy(const Lobe& lobe) {
 
 // And could be looked up in maps of every roughness.
 bool SceneMaps::takes_long(const Lobe& lobe) const {
-    return lobe.kind == Lobe::Kind::ggx && detail::looks_up_per_pixel(method_) &&
+    return lobe.kind == Lobe::Kind::ggx && detail::looks_up_per_pixel(method_) && !baked_ &&
            !filter_->is_quick(glossy_target(filter_->source(), lobe, projection_, axes_));
 }
 
-void SceneMaps::set_lobes(std::span<const Lobe> lobes, bool quick) {
+void SceneMaps::set_lobes(std::span<const Lobe> lobes, bool quick, const Progress& progress) {
     ++turn_;
     bool changed = false;
+    double begun = 0;
+    const auto count = static_cast<double>(lobes.size());
     for (const Lobe& lobe : lobes) {
         const std::size_t i = index_of(lobe);
+        const Progress of_lobe = part_of(progress, begun / count, (begun + 1) / count);
+        ++begun;
         if (i == lobes_.size()) {
             if (quick && takes_long(lobe)) {
                 changed = changed || maps_.rough.empty();
-                if (maps_.rough.empty()) make_rough();
+                if (maps_.rough.empty()) make_rough(of_lobe);
                 continue;
             }
-            make_glossy(lobe);
+            make_glossy(lobe, of_lobe);
             changed = true;
         }
         lobes_[i].used = turn_;

@@ -10,6 +10,7 @@
 
 #include <mirrorball/baked_maps.h>
 #include <mirrorball/prefilter.h>
+#include <mirrorball/progress.h>
 #include <mirrorball/scene.h>
 
 #include "map_textures.h"
@@ -25,12 +26,12 @@ class SceneMaps {
     /// edge of a cube's face; other maps are as fine as such a cube. Maps of every roughness are
     /// made if they are asked for and the method looks up at each pixel.
     SceneMaps(std::shared_ptr<LobeFilter> filter, Method method, int size, bool rough = false,
-              std::shared_ptr<const BakedMaps> baked = nullptr);
+              std::shared_ptr<const BakedMaps> baked = nullptr, const Progress& progress = {});
 
     /// Makes maps for the lobes that have none. Those of other lobes stay, up to some memory, for a
     /// scene may come back to them; a lobe's map is the same whenever it is made. `quick`: maps of
     /// every roughness, which are made once, stand in for what would take long.
-    void set_lobes(std::span<const Lobe> lobes, bool quick = false);
+    void set_lobes(std::span<const Lobe> lobes, bool quick = false, const Progress& progress = {});
 
     /// Re-makes maps that depend on where the camera looks in an environment that is turned so.
     void look_from(const Axes& camera, const SceneEnvironment& environment);
@@ -54,10 +55,11 @@ class SceneMaps {
         std::uint64_t used;  // the last turn in which it was
     };
 
-    [[nodiscard]] EnvironmentMap filtered(const PrefilterTarget& target) const;
-    void make_rough();
+    [[nodiscard]] EnvironmentMap filtered(const PrefilterTarget& target,
+                                          const Progress& progress) const;
+    void make_rough(const Progress& progress);
     [[nodiscard]] bool takes_long(const Lobe& lobe) const;
-    void make_glossy(const Lobe& lobe);
+    void make_glossy(const Lobe& lobe, const Progress& progress);
     bool forget_unused();
     [[nodiscard]] std::uint64_t unused_bytes() const;
     [[nodiscard]] std::size_t index_of(const Lobe& lobe) const;

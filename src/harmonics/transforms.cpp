@@ -91,24 +91,28 @@ AnalysisPlan::AnalysisPlan(const MapShape& shape, std::shared_ptr<const Legendre
     grid_ = make_texel_grid(shape, *rings_, GridTaps(*rings_, power), GridUse::analysis);
 }
 
-void AnalysisPlan::run(const std::vector<Image>& faces, Harmonics& harmonics) const {
+void AnalysisPlan::run(const std::vector<Image>& faces, Harmonics& harmonics,
+                       const Progress& progress) const {
     RingSpectra spectra = rings_->make_spectra();
     TexelGrid::Buffer buffer;
     if (grid_) {
         buffer = grid_->make_buffer();
         grid_->spread_texels(faces, buffer);
     }
-    parallel_for(rings_->group_count(), [&](std::int64_t i) {
-        const FlushDenormals flush;
-        const int group = static_cast<int>(i);
-        std::array<GroupValues, 3> planes = make_planes(*rings_);
-        GroupValues scratch = rings_->make_values();
-        if (grid_)
-            grid_->gather_group(group, buffer, planes);
-        else
-            rings_->load_rows(group, faces.front().values().data(), planes);
-        rings_->to_spectra(group, planes, scratch, columns_, ring_weights_, spectra);
-    });
+    parallel_for(
+        rings_->group_count(),
+        [&](std::int64_t i) {
+            const FlushDenormals flush;
+            const int group = static_cast<int>(i);
+            std::array<GroupValues, 3> planes = make_planes(*rings_);
+            GroupValues scratch = rings_->make_values();
+            if (grid_)
+                grid_->gather_group(group, buffer, planes);
+            else
+                rings_->load_rows(group, faces.front().values().data(), planes);
+            rings_->to_spectra(group, planes, scratch, columns_, ring_weights_, spectra);
+        },
+        progress);
     rings_->analyse(spectra, harmonics);
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include <mirrorball/harmonics.h>
+#include <mirrorball/progress.h>
 
 #include "harmonics/ring_transform.h"
 #include "harmonics/texel_grid.h"
@@ -25,7 +26,8 @@ class AnalysisPlan {
                  std::optional<double> oversampling = {});
 
     /// \pre map has the plan's shape
-    void run(const std::vector<Image>& faces, Harmonics& harmonics) const;
+    void run(const std::vector<Image>& faces, Harmonics& harmonics,
+             const Progress& progress = {}) const;
 
     [[nodiscard]] const MapShape& shape() const { return shape_; }
     [[nodiscard]] int band_count() const { return band_count_; }

@@ -140,6 +140,7 @@ std::vector<FormatInfo> formats() {
 
 FileContents read_file(const std::filesystem::path& path, const ReadOptions& options) {
     detail::InputFile file(path);
+    file.report_to(options.progress);
     return detail::read_contents(file, options);
 }
 

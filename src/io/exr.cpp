@@ -39,7 +39,9 @@
 #include "codec.h"
 #include "core/parallel.h"
 #include "edge_grid.h"
-#include "exr_strip.h"
+#include "exr_names.h"
+#include "exr_picture.h"
+#include "exr_words.h"
 #include "packed.h"
 #include "row_source.h"
 
@@ -49,13 +51,7 @@ namespace {
 using Imath::Box2i;
 using Imath::V2i;
 
-constexpr const char* kLevelCountAttribute = "mirrorball.level_count";
 constexpr std::array<unsigned char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
-
-// Where OpenEXR's pictures of the two projections lie in our world: what axes_preset("openexr",
-// ...) says.
-const Axes kLatLongAxes{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
-const Axes kCubeAxes{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
 
 class Input : public Imf::IStream {
   public:
@@ -107,63 +103,34 @@ struct Picture {
     bool is_half = true;
 };
 
-std::optional<std::vector<std::string>> picture_channels(const Imf::ChannelList& list,
-                                                         const std::string& layer) {
-    const auto has = [&](const char* name) {
-        return list.findChannel((layer + name).c_str()) != nullptr;
-    };
+std::vector<std::string> channels_of(const Imf::Header& header) {
     std::vector<std::string> names;
-    if (has("R") && has("G") && has("B"))
-        names = {layer + "R", layer + "G", layer + "B"};
-    else if (has("Y") && !has("RY") && !has("BY"))
-        names = {layer + "Y"};
-    else
-        return std::nullopt;
-    if (has("A")) names.push_back(layer + "A");
+    for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
+        names.emplace_back(i.name());
     return names;
 }
 
 std::optional<Picture> find_picture(const Imf::Header& header, int part) {
     if (header.hasType() && Imf::isDeepData(header.type())) return std::nullopt;
     const Imf::ChannelList& list = header.channels();
-    std::set<std::string> layers;
-    list.layers(layers);
-    std::vector<std::string> prefixes{""};
-    for (const std::string& layer : layers) prefixes.push_back(layer + ".");
-    for (const std::string& prefix : prefixes)
-        if (auto names = picture_channels(list, prefix)) {
-            Picture picture{part, std::move(*names)};
-            for (const std::string& name : picture.channels)
-                picture.is_half &= list.findChannel(name.c_str())->type == Imf::HALF;
-            return picture;
-        }
-    return std::nullopt;
-}
-
-std::string channels_in_words(const Imf::Header& header) {
-    std::vector<std::string> names;
-    for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
-        names.emplace_back(i.name());
-    return fmt::format("{}", fmt::join(names, ", "));
+    auto names = picture_channels(channels_of(header));
+    if (!names) return std::nullopt;
+    Picture picture{part, std::move(*names)};
+    for (const std::string& name : picture.channels)
+        picture.is_half &= list.findChannel(name.c_str())->type == Imf::HALF;
+    return picture;
 }
 
 Picture choose_picture(const InputFile& file, const Imf::MultiPartInputFile& exr,
                        FileContents& contents) {
     for (int part = 0; part < exr.parts(); ++part)
         if (auto picture = find_picture(exr.header(part), part)) {
-            if (exr.parts() > 1)
-                contents.notes.push_back(
-                    fmt::format("has {} parts; part {} was read", exr.parts(), part + 1));
-            if (picture->channels.front().size() > 1)
-                contents.notes.push_back(fmt::format("has no plain R, G and B; {} were read",
-                                                     fmt::join(picture->channels, ", ")));
+            note_choice(exr.parts(), part, picture->channels, contents.notes);
             return *picture;
         }
     const Imf::Header& first = exr.header(0);
-    if (first.hasType() && Imf::isDeepData(first.type()))
-        file.fail("holds deep pixels; flat ones were expected");
-    file.fail(fmt::format("has the channels {} (R, G and B or Y were expected)",
-                          channels_in_words(first)));
+    if (first.hasType() && Imf::isDeepData(first.type())) file.fail(kDeepPixels);
+    file.fail(no_picture_among(channels_of(first)));
 }
 
 // The most pixel bytes that one byte of a chunk can stand for, so that a claim can be held against
@@ -218,13 +185,6 @@ double texel_bytes(const Imf::ChannelList& channels) {
     return bytes;
 }
 
-std::int64_t width_of(const Box2i& box) {
-    return std::int64_t{box.max.x} - box.min.x + 1;
-}
-std::int64_t height_of(const Box2i& box) {
-    return std::int64_t{box.max.y} - box.min.y + 1;
-}
-
 bool has_levels(const Imf::Header& header) {
     return header.hasTileDescription() && header.tileDescription().mode == Imf::MIPMAP_LEVELS;
 }
@@ -234,11 +194,10 @@ void check_header(InputFile& file, const Imf::Header& header, const Picture& pic
     for (const std::string& name : picture.channels) {
         const Imf::Channel& channel = *header.channels().findChannel(name.c_str());
         if (channel.xSampling != 1 || channel.ySampling != 1)
-            file.fail(fmt::format("its channel {} is sub-sampled {} x {}; full ones were expected",
-                                  name, channel.xSampling, channel.ySampling));
+            file.fail(sub_sampled(name, channel.xSampling, channel.ySampling));
     }
     if (header.hasTileDescription() && header.tileDescription().mode == Imf::RIPMAP_LEVELS)
-        file.fail("has ripmap levels; mip levels or one level were expected");
+        file.fail(kRipmapLevels);
 
     const std::int64_t width = width_of(header.dataWindow()),
                        height = height_of(header.dataWindow());
@@ -256,8 +215,7 @@ void check_header(InputFile& file, const Imf::Header& header, const Picture& pic
         const Imf::TileDescription& tiles = header.tileDescription();
         chunk_texels = double(tiles.xSize) * tiles.ySize;
         if (chunk_texels > std::max(4 * pixels, double(1 << 22)))
-            file.fail(fmt::format("its tiles are {} x {}, for a picture of {} x {}", tiles.xSize,
-                                  tiles.ySize, width, height));
+            file.fail(tiles_too_large(tiles.xSize, tiles.ySize, width, height));
     }
     if (chunk_texels * texel_bytes(header.channels()) > INT_MAX)
         file.fail(fmt::format("is stored in pieces of {:.0f} texels, more than can be read at once",
@@ -328,25 +286,11 @@ Image make_image(const Box2i& window, const Picture& picture) {
                  static_cast<int>(picture.channels.size()));
 }
 
-// How many of the levels are to be taken: those that the writer says count, else those whose sizes
-// are exact halves, so that the shape stays that of the first.
-int level_count(const Imf::Header& header, const Imf::TiledInputPart& tiles) {
-    int count = 1;
-    if (const auto* said = header.findTypedAttribute<Imf::IntAttribute>(kLevelCountAttribute))
-        return std::clamp(said->value(), 1, tiles.numLevels());
-    while (count < tiles.numLevels() &&
-           std::int64_t{tiles.levelWidth(count)} << count == tiles.levelWidth(0) &&
-           std::int64_t{tiles.levelHeight(count)} << count == tiles.levelHeight(0))
-        ++count;
-    return count;
-}
-
 // The levels' data windows, as pictures.
 std::vector<Image> read_levels(const InputFile& file, Imf::MultiPartInputFile& exr,
                                const Picture& picture) {
     const Imf::Header& header = exr.header(picture.part);
-    if (!exr.partComplete(picture.part))
-        file.fail("is incomplete: some of its pixels were never written");
+    if (!exr.partComplete(picture.part)) file.fail(kNeverWritten);
     std::vector<Image> levels;
     if (!has_levels(header)) {
         const Box2i window = header.dataWindow();
@@ -367,33 +311,7 @@ std::vector<Image> read_levels(const InputFile& file, Imf::MultiPartInputFile& e
         part.setFrameBuffer(frame_buffer(image, picture, window));
         part.readTiles(0, part.numXTiles(level) - 1, 0, part.numYTiles(level) - 1, level);
     }
-    levels.resize(level_count(header, part));
     return levels;
-}
-
-// The picture is the display window: what was stored beyond it goes, what was not stored is black.
-Image in_display_window(const InputFile& file, const Image& data, const Box2i& data_window,
-                        const Box2i& display_window, const ReadOptions& options) {
-    const double texels = double(width_of(display_window)) * double(height_of(display_window));
-    constexpr double kMostEmptiness = 64;
-    if (texels > kMostEmptiness * double(data.texel_count()))
-        file.fail(fmt::format("stores {} x {} pixels of a picture of {} x {}", data.width(),
-                              data.height(), width_of(display_window), height_of(display_window)));
-    check_claim(file, width_of(display_window), height_of(display_window), data.channels(), 2, 0,
-                options);
-    Image picture(static_cast<int>(width_of(display_window)),
-                  static_cast<int>(height_of(display_window)), data.channels());
-    const Box2i shared{{std::max(data_window.min.x, display_window.min.x),
-                        std::max(data_window.min.y, display_window.min.y)},
-                       {std::min(data_window.max.x, display_window.max.x),
-                        std::min(data_window.max.y, display_window.max.y)}};
-    if (shared.isEmpty()) file.fail("stores no pixel of its display window");
-    for (int y = shared.min.y; y <= shared.max.y; ++y) {
-        const float* from = data.at(shared.min.x - data_window.min.x, y - data_window.min.y);
-        std::copy_n(from, width_of(shared) * data.channels(),
-                    picture.at(shared.min.x - display_window.min.x, y - display_window.min.y));
-    }
-    return picture;
 }
 
 Image paste_strip(const std::vector<Image>& faces) {
@@ -406,21 +324,6 @@ Image paste_strip(const std::vector<Image>& faces) {
             std::copy(row.begin(), row.end(), strip.row(place * n + y).begin());
         }
     return strip;
-}
-
-bool has_shape(const std::vector<Image>& levels, int width, int height) {
-    return std::all_of(levels.begin(), levels.end(), [&](const Image& image) {
-        return std::int64_t{image.width()} * height == std::int64_t{image.height()} * width;
-    });
-}
-
-void take_environment(std::vector<Image> levels, Imf::Envmap kind, FileContents& contents) {
-    const bool is_cube = kind == Imf::ENVMAP_CUBE;
-    for (Image& image : levels)
-        contents.levels.push_back(is_cube ? cube_from_edge_grid(cut_strip(image))
-                                          : std::vector{equirect_from_edge_grid(image)});
-    contents.projection = is_cube ? Projection::cube : Projection::equirect;
-    contents.axes = is_cube ? kCubeAxes : kLatLongAxes;
 }
 
 void read_attributes(const Imf::Header& header, FileContents& contents) {
@@ -459,32 +362,14 @@ FileContents read_picture(InputFile& file, const ReadOptions& options) {
     read_attributes(header, contents);
     contents.stored = picture.is_half ? TexelFormat::rgba16f : TexelFormat::rgba32f;
 
-    std::vector<Image> levels = read_levels(file, exr, picture);
-    if (Imf::hasEnvmap(header)) {
-        const Imf::Envmap kind = Imf::envmap(header);
-        const bool known = kind == Imf::ENVMAP_LATLONG || kind == Imf::ENVMAP_CUBE;
-        const bool fits =
-            kind == Imf::ENVMAP_CUBE ? has_shape(levels, 1, 6) : has_shape(levels, 2, 1);
-        if (known && fits) {
-            take_environment(std::move(levels), kind, contents);
-            drop_opaque_alpha(contents);
-            return contents;
-        }
-        contents.notes.push_back(fmt::format(
-            "its envmap attribute ({}) was left aside, as its size of {} x {} is another's",
-            kind == Imf::ENVMAP_CUBE ? "cube" : "latlong", levels.front().width(),
-            levels.front().height()));
-    }
-    if (header.dataWindow() != header.displayWindow()) {
-        contents.notes.push_back(fmt::format(
-            "stores {} x {} pixels of a picture of {} x {}; the rest is black or was left out",
-            levels.front().width(), levels.front().height(), width_of(header.displayWindow()),
-            height_of(header.displayWindow())));
-        levels.resize(1);
-        levels.front() = in_display_window(file, levels.front(), header.dataWindow(),
-                                           header.displayWindow(), options);
-    }
-    for (Image& image : levels) contents.levels.emplace_back().push_back(std::move(image));
+    ExrPictureWords words{header.dataWindow(), header.displayWindow(), {}, {}};
+    if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_LATLONG)
+        words.environment = Projection::equirect;
+    if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
+        words.environment = Projection::cube;
+    if (const auto* count = header.findTypedAttribute<Imf::IntAttribute>(kLevelCountAttribute))
+        words.level_count = count->value();
+    take_exr_levels(file, read_levels(file, exr, picture), words, options, contents);
     drop_opaque_alpha(contents);
     return contents;
 }
@@ -586,8 +471,7 @@ std::unique_ptr<RowSource> open_rows(InputFile& file, const ReadOptions& options
         ReadOptions unlimited = options;
         unlimited.memory_limit = kUnlimitedMemory;
         check_header(file, header, picture, unlimited);
-        if (!exr.partComplete(picture.part))
-            file.fail("is incomplete: some of its pixels were never written");
+        if (!exr.partComplete(picture.part)) file.fail(kNeverWritten);
         read_attributes(header, contents);
         contents.stored = picture.is_half ? TexelFormat::rgba16f : TexelFormat::rgba32f;
         return std::make_unique<ExrRows>(file, exr, std::move(picture), std::move(contents));

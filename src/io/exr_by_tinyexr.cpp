@@ -1,21 +1,26 @@
 // OpenEXR files read by tinyexr, which is one header: for builds that have not OpenEXR's library.
 //
-// Of what exr.cpp reads this takes the plain case: the first level of one part that has R, G and B
-// or Y, by their plain names, uncompressed or by RLE, ZIP or PIZ. The rest is refused by name.
+// Of what exr.cpp reads this takes all that tinyexr decodes: pictures that are uncompressed or
+// packed by RLE, ZIP or PIZ, in scanlines or tiles, with mip levels or without, of any layer. Its
+// functions for files of several parts trust their tables; so one part is cut out beforehand
+// (exr_parts.h).
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <mirrorball/error.h>
 
 #include "codec.h"
-#include "edge_grid.h"
-#include "exr_strip.h"
+#include "exr_names.h"
+#include "exr_parts.h"
+#include "exr_picture.h"
+#include "exr_words.h"
 #include "packed.h"
 
 #pragma clang diagnostic push
@@ -29,10 +34,6 @@ namespace mirrorball::detail {
 namespace {
 
 constexpr std::array<unsigned char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
-
-// Where OpenEXR's pictures of the two projections lie in our world, as in exr.cpp.
-const Axes kLatLongAxes{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
-const Axes kCubeAxes{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
 
 bool recognises(std::span<const std::byte> head) {
     return head.size() >= kMagic.size() &&
@@ -54,18 +55,17 @@ struct Header : EXRHeader {
     }
 };
 
+// What the parser has not loaded to the end it frees itself.
 struct Pixels : EXRImage {
     Pixels() { InitEXRImage(this); }
-    ~Pixels() { FreeEXRImage(this); }
+    ~Pixels() {
+        if (is_loaded) FreeEXRImage(this);
+    }
     Pixels(const Pixels&) = delete;
     Pixels& operator=(const Pixels&) = delete;
-};
 
-std::span<const unsigned char> whole(InputFile& file) {
-    file.seek(0);
-    const auto bytes = file.look_ahead(file.size());
-    return {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
-}
+    bool is_loaded = false;
+};
 
 // The parser's functions give a code, and text that the caller frees.
 template <class Call>
@@ -78,84 +78,92 @@ void checked(const InputFile& file, Call&& call) {
     file.fail(fmt::format("is no OpenEXR file that can be read ({})", words));
 }
 
-void parse_header(InputFile& file, Header& header) {
-    const auto bytes = whole(file);
+// The picture's part, and where its channels stand in the list of all.
+struct Choice {
+    std::size_t part = 0;
+    std::vector<std::size_t> channels;
+};
+
+Choice choose_picture(const InputFile& file, const ExrParts& parts,
+                      std::vector<std::string>& notes) {
+    for (std::size_t i = 0; i < parts.parts.size(); ++i) {
+        const ExrPart& part = parts.parts[i];
+        const auto names = part.is_deep ? std::nullopt : picture_channels(part.channels);
+        if (!names) continue;
+        note_choice(static_cast<std::int64_t>(parts.parts.size()), static_cast<std::int64_t>(i),
+                    *names, notes);
+        Choice choice{i, {}};
+        for (const std::string& name : *names) {
+            const auto found = std::find(part.channels.begin(), part.channels.end(), name);
+            choice.channels.push_back(static_cast<std::size_t>(found - part.channels.begin()));
+        }
+        return choice;
+    }
+    const ExrPart& first = parts.parts.front();
+    file.fail(first.is_deep ? kDeepPixels : no_picture_among(first.channels));
+}
+
+void check_compression(const InputFile& file, const ExrPart& part) {
+    constexpr std::array<std::string_view, 5> kKnown = {"no method", "RLE", "ZIPS", "ZIP", "PIZ"};
+    const std::string_view found = part.compression();
+    if (std::find(kKnown.begin(), kKnown.end(), found) == kKnown.end())
+        throw Error(Errc::unsupported,
+                    fmt::format("{}: is compressed by {}, which this build cannot read",
+                                file.name(), found));
+}
+
+void parse_header(const InputFile& file, std::span<const unsigned char> bytes, Header& header) {
     EXRVersion version{};
     if (ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS)
         file.fail("is no OpenEXR file that can be read (its version is not known)");
-    if (version.non_image) file.fail("holds deep pixels; flat ones were expected");
-    if (version.multipart)
-        throw Error(Errc::unsupported,
-                    file.name() + ": has several parts, which this build cannot read");
     checked(file, [&](const char** text) {
         return ParseEXRHeaderFromMemory(&header, &version, bytes.data(), bytes.size(), text);
     });
 }
 
-// R, G, B and perhaps A, or Y and perhaps A: where they stand in the list of channels.
-std::vector<int> picture_channels(const InputFile& file, const Header& header) {
-    std::vector<std::string> names;
-    for (int i = 0; i < header.num_channels; ++i) names.emplace_back(header.channels[i].name);
-    std::vector<int> result;
-    const auto take = [&](const char* name) {
-        const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end()) return false;
-        result.push_back(static_cast<int>(found - names.begin()));
-        return true;
-    };
-    if (!(take("R") && take("G") && take("B"))) {
-        result.clear();
-        if (!take("Y"))
-            file.fail(fmt::format("has the channels {} (R, G and B or Y were expected)",
-                                  fmt::join(names, ", ")));
-    }
-    take("A");
-    for (const int i : result) {
+void check_header(InputFile& file, const Header& header, const ReadOptions& options) {
+    for (int i = 0; i < header.num_channels; ++i) {
         const EXRChannelInfo& channel = header.channels[i];
         if (channel.x_sampling != 1 || channel.y_sampling != 1)
-            file.fail(fmt::format("its channel {} is sub-sampled {} x {}; full ones were expected",
-                                  channel.name, channel.x_sampling, channel.y_sampling));
+            file.fail(sub_sampled(channel.name, channel.x_sampling, channel.y_sampling));
     }
-    return result;
-}
-
-void check_header(InputFile& file, const Header& header, const ReadOptions& options) {
-    const bool has_levels = header.tiled && header.tile_level_mode != TINYEXR_TILE_ONE_LEVEL;
+    if (header.tiled && header.tile_level_mode == TINYEXR_TILE_RIPMAP_LEVELS)
+        file.fail(kRipmapLevels);
+    const bool has_levels = header.tiled && header.tile_level_mode == TINYEXR_TILE_MIPMAP_LEVELS;
     // Everything is decoded to floats at once, and then made into the picture.
     file.seek(0);
     check_claim(file, header.width(), header.height(), 4,
                 (header.num_channels + 3) / 4 + (has_levels ? 2 : 1), 0, options);
-    if (header.tiled && header.tile_level_mode == TINYEXR_TILE_RIPMAP_LEVELS)
-        file.fail("has ripmap levels; mip levels or one level were expected");
-    if (header.tiled && (header.tile_size_x < 1 || header.tile_size_y < 1))
-        file.fail(fmt::format("its tiles are {} x {}, for a picture of {} x {}", header.tile_size_x,
-                              header.tile_size_y, header.width(), header.height()));
-    for (int i = 0; i < header.num_channels; ++i) {
-        if (header.pixel_types[i] == TINYEXR_PIXELTYPE_UINT)
-            throw Error(Errc::unsupported,
-                        fmt::format("{}: its channel {} holds whole numbers, which this build "
-                                    "cannot read",
-                                    file.name(), header.channels[i].name));
-    }
+    if (!header.tiled) return;
+    // Each tile is set aside whole, be the picture as small as it may.
+    const double texels = double(header.tile_size_x) * header.tile_size_y;
+    const double pixels = double(header.width()) * double(header.height());
+    if (header.tile_size_x < 1 || header.tile_size_y < 1 ||
+        texels > std::max(4 * pixels, double(1 << 22)))
+        file.fail(tiles_too_large(header.tile_size_x, header.tile_size_y, header.width(),
+                                  header.height()));
 }
 
-float value_at(const unsigned char* texels, std::size_t i) {
-    float value = 0;
-    std::memcpy(&value, texels + i * sizeof(float), sizeof(float));
-    return value;
+// Floats, or whole numbers, which the parser leaves as they are.
+float value_at(const unsigned char* texels, std::size_t i, int type) {
+    const auto read = [&](auto value) {
+        std::memcpy(&value, texels + i * sizeof value, sizeof value);
+        return static_cast<float>(value);
+    };
+    return type == TINYEXR_PIXELTYPE_UINT ? read(std::uint32_t{}) : read(float{});
 }
 
-Image assemble(const InputFile& file, const Header& header, const Pixels& pixels,
-               const std::vector<int>& channels) {
-    Image image(static_cast<int>(header.width()), static_cast<int>(header.height()),
-                static_cast<int>(channels.size()));
+Image assemble(const InputFile& file, const Header& header, const EXRImage& pixels,
+               const std::vector<std::size_t>& channels) {
+    Image image(pixels.width, pixels.height, static_cast<int>(channels.size()));
     const auto copy = [&](unsigned char** planes, int left, int top, int width, int height,
                           int stride) {
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
                 for (std::size_t c = 0; c < channels.size(); ++c)
                     image.at(left + x, top + y)[c] =
-                        value_at(planes[channels[c]], static_cast<std::size_t>(y) * stride + x);
+                        value_at(planes[channels[c]], static_cast<std::size_t>(y) * stride + x,
+                                 header.requested_pixel_types[channels[c]]);
             }
         }
     };
@@ -168,7 +176,7 @@ Image assemble(const InputFile& file, const Header& header, const Pixels& pixels
         const std::int64_t left = std::int64_t{tile.offset_x} * header.tile_size_x,
                            top = std::int64_t{tile.offset_y} * header.tile_size_y;
         if (!tile.images || left < 0 || top < 0 || left >= image.width() || top >= image.height())
-            file.fail("is incomplete: some of its pixels were never written");
+            file.fail(kNeverWritten);
         copy(tile.images, static_cast<int>(left), static_cast<int>(top),
              static_cast<int>(std::min<std::int64_t>(header.tile_size_x, image.width() - left)),
              static_cast<int>(std::min<std::int64_t>(header.tile_size_y, image.height() - top)),
@@ -177,60 +185,75 @@ Image assemble(const InputFile& file, const Header& header, const Pixels& pixels
     return image;
 }
 
-void read_attributes(const Header& header, FileContents& contents,
-                     std::optional<Projection>& environment) {
-    for (int i = 0; i < header.num_custom_attributes; ++i) {
-        const EXRAttribute& attribute = header.custom_attributes[i];
-        const std::string_view name = attribute.name, type = attribute.type;
-        if (type == "string" && attribute.size >= 0)
-            contents.metadata[attribute.name] =
-                std::string(reinterpret_cast<const char*>(attribute.value),
-                            static_cast<std::size_t>(attribute.size));
-        if (name == "envmap" && attribute.size == 1 && attribute.value[0] < 2)
-            environment = attribute.value[0] == 1 ? Projection::cube : Projection::equirect;
-    }
+Imath::Box2i box(const EXRBox2i& window) {
+    return {{window.min_x, window.min_y}, {window.max_x, window.max_y}};
 }
 
-FileContents read(InputFile& file, const ReadOptions& options) {
-    Header header;
-    parse_header(file, header);
-    const std::vector<int> channels = picture_channels(file, header);
-    check_header(file, header, options);
-    if (std::memcmp(&header.data_window, &header.display_window, sizeof(EXRBox2i)) != 0)
-        throw Error(Errc::unsupported,
-                    file.name() +
-                        ": stores another part of the picture than is to be shown, "
-                        "which this build cannot read");
+ExrPictureWords read_attributes(const Header& header, const ExrPart& part, FileContents& contents) {
+    ExrPictureWords words{box(header.data_window), box(header.display_window), {}, {}};
+    for (const ExrPart::Attribute& one : part.attributes) {
+        const auto* bytes = reinterpret_cast<const char*>(one.value.data());
+        if (one.type == "string" && one.name != "type" && one.name != "name")
+            contents.metadata[one.name] = std::string(bytes, one.value.size());
+        if (one.name == "envmap" && one.value.size() == 1 && *bytes >= 0 && *bytes < 2)
+            words.environment = *bytes == 1 ? Projection::cube : Projection::equirect;
+        if (one.name == kLevelCountAttribute && one.value.size() == sizeof(std::int32_t)) {
+            std::int32_t count = 0;
+            std::memcpy(&count, bytes, sizeof count);
+            words.level_count = count;
+        }
+    }
+    return words;
+}
 
+std::span<const unsigned char> unsigned_bytes(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
+}
+
+FileContents read_picture(InputFile& file, const ReadOptions& options) {
+    file.seek(0);
+    std::span<const std::byte> bytes = file.look_ahead(file.size());
+    const ExrParts parts = parse_exr_headers(file, bytes);
     FileContents contents;
-    std::optional<Projection> environment;
-    read_attributes(header, contents, environment);
-    const bool is_half = std::all_of(channels.begin(), channels.end(), [&](int i) {
-        return header.pixel_types[i] == TINYEXR_PIXELTYPE_HALF;
-    });
-    contents.stored = is_half ? TexelFormat::rgba16f : TexelFormat::rgba32f;
+    const Choice choice = choose_picture(file, parts, contents.notes);
+    const ExrPart& part = parts.parts[choice.part];
+    check_compression(file, part);
+    std::vector<std::byte> alone;
+    if (parts.is_multipart) bytes = alone = single_part(file, bytes, parts, choice.part);
 
-    std::fill_n(header.requested_pixel_types, header.num_channels, TINYEXR_PIXELTYPE_FLOAT);
-    const auto bytes = whole(file);
+    Header header;
+    parse_header(file, unsigned_bytes(bytes), header);
+    check_header(file, header, options);
+    const ExrPictureWords words = read_attributes(header, part, contents);
+    const bool is_half =
+        std::all_of(choice.channels.begin(), choice.channels.end(),
+                    [&](std::size_t i) { return header.pixel_types[i] == TINYEXR_PIXELTYPE_HALF; });
+    contents.stored = is_half ? TexelFormat::rgba16f : TexelFormat::rgba32f;
+    for (int i = 0; i < header.num_channels; ++i)
+        if (header.pixel_types[i] == TINYEXR_PIXELTYPE_HALF)
+            header.requested_pixel_types[i] = TINYEXR_PIXELTYPE_FLOAT;
+
     Pixels pixels;
     checked(file, [&](const char** text) {
-        return LoadEXRImageFromMemory(&pixels, &header, bytes.data(), bytes.size(), text);
+        return LoadEXRImageFromMemory(&pixels, &header, unsigned_bytes(bytes).data(), bytes.size(),
+                                      text);
     });
-    if (pixels.next_level) contents.notes.emplace_back("has levels; the first was read");
-    Image image = assemble(file, header, pixels, channels);
-
-    const bool is_cube = environment == Projection::cube;
-    const std::int64_t w = image.width(), h = image.height();
-    if (environment && (is_cube ? h == 6 * w : w == 2 * h)) {
-        contents.levels.push_back(is_cube ? cube_from_edge_grid(cut_strip(image))
-                                          : std::vector{equirect_from_edge_grid(image)});
-        contents.projection = environment;
-        contents.axes = is_cube ? kCubeAxes : kLatLongAxes;
-    } else {
-        contents.levels.emplace_back().push_back(std::move(image));
-    }
+    pixels.is_loaded = true;
+    std::vector<Image> levels;
+    for (const EXRImage* level = &pixels; level; level = level->next_level)
+        levels.push_back(assemble(file, header, *level, choice.channels));
+    take_exr_levels(file, std::move(levels), words, options, contents);
     drop_opaque_alpha(contents);
     return contents;
+}
+
+// What the parser's containers throw, as what we throw.
+FileContents read(InputFile& file, const ReadOptions& options) {
+    try {
+        return read_picture(file, options);
+    } catch (const std::logic_error& error) {
+        file.fail(fmt::format("is no OpenEXR file that can be read ({})", error.what()));
+    }
 }
 
 }  // namespace

@@ -7,7 +7,10 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <mirrorball/progress.h>
 
 namespace mirrorball::detail {
 
@@ -31,6 +34,8 @@ class InputFile {
     void seek(std::uint64_t position);
     /// All of `out`, or an error that says where the file ended.
     void read(std::span<std::byte> out);
+    /// From now on, `progress` is told the share of the file that has been read.
+    void report_to(Progress progress) { progress_ = std::move(progress); }
     /// As many bytes as there are; the count.
     std::size_t read_some(std::span<std::byte> out);
 
@@ -68,6 +73,8 @@ class InputFile {
     std::span<const std::byte> memory_;  // the whole, or the buffered part
     std::uint64_t memory_start_ = 0;     // of `memory_` in the file
     std::vector<std::byte> buffer_;
+    Progress progress_;
+    double told_ = 0;  // the last of what it was told
 };
 
 /// Removes what OutputFiles that are still open have on disk under a temporary name. For handlers

@@ -13,6 +13,7 @@
 #include <mirrorball/error.h>
 
 #include "ball_crop.h"
+#include "core/part_of.h"
 #include "face_pattern.h"
 #include "face_words.h"
 #include "layout.h"
@@ -97,8 +98,12 @@ void append_face(FileContents& faces, FileContents face, const std::filesystem::
 
 Gathered gather_faces(const FaceFiles& found, const ReadOptions& options) {
     Gathered gathered{{}, found.projection};
+    double begun = 0;
+    const auto count = static_cast<double>(found.files.size());
     for (const std::filesystem::path& file : found.files) {
         ReadOptions left = options;
+        left.progress = part_of(options.progress, begun / count, (begun + 1) / count);
+        ++begun;
         left.memory_limit -= std::min(bytes_of(gathered.contents), left.memory_limit);
         append_face(gathered.contents, read_file(file, left), file, found.files.front());
     }
@@ -267,7 +272,8 @@ LoadedMap draw_builtin(const std::string& source, const MapReadOptions& options)
         options.axes.empty() ? default_axes(projection) : parse_axes(options.axes, projection);
 
     LoadedMap loaded;
-    loaded.map = make_builtin(source.substr(kBuiltinPrefix.size()), projection, size, axes);
+    loaded.map = make_builtin(source.substr(kBuiltinPrefix.size()), projection, size, axes,
+                              options.progress);
     loaded.format = "built-in";
     loaded.stored = TexelFormat::rgba32f;
     return loaded;

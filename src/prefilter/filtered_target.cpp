@@ -143,21 +143,23 @@ double FilteredTarget::wave_error(std::span<const double> spectrum) const {
 }
 
 void FilteredTarget::make_map(const Harmonics& source, const SourceRange& range,
-                              const NearField* near, EnvironmentMap& map) const {
+                              const NearField* near, EnvironmentMap& map,
+                              const Progress& progress) const {
     const auto integral = static_cast<float>(lobe_.integral());
     const Vec3f lowest = range.lowest * integral, highest = range.highest * integral;
     const bool far_only = near == nullptr, done = far_only && !far_sums_;
     synthesis_.run(source, zonal_, ring_weights_, done ? lowest : -kMost, done ? highest : kMost,
                    map.levels[0].faces);
     if (whole_source_near_) {
-        add_near_normalised(*near, split_.near, *far_sums_, integral, lowest, highest, map);
+        add_near_normalised(*near, split_.near, *far_sums_, integral, lowest, highest, map,
+                            progress);
         return;
     }
     if (far_sums_) {
         divide_by_sums(*far_sums_, integral, far_only ? lowest : -kMost, far_only ? highest : kMost,
                        map);
     }
-    if (near != nullptr) add_near(*near, split_.near, lowest, highest, map);
+    if (near != nullptr) add_near(*near, split_.near, lowest, highest, map, progress);
 }
 
 }  // namespace mirrorball::detail

@@ -57,7 +57,7 @@ class FilteredTarget {
     /// `near` has the lights to be put right, or the whole source; or it is null. Results are
     /// clamped to the source's range.
     void make_map(const Harmonics& source, const SourceRange& range, const NearField* near,
-                  EnvironmentMap& map) const;
+                  EnvironmentMap& map, const Progress& progress = {}) const;
 
   private:
     Lobe lobe_;

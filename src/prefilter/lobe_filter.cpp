@@ -13,6 +13,7 @@
 
 #include <mirrorball/zonal.h>
 
+#include "core/part_of.h"
 #include "harmonics/transforms.h"
 #include "prefilter/filtered_target.h"
 #include "prefilter/source_light.h"
@@ -27,6 +28,8 @@ using namespace detail;
 constexpr std::array kBandCounts = {kFewBands, 512, 1024};
 constexpr std::size_t kQuickBands = 512;
 
+constexpr double kAnalysisShare = 0.5;  // of the progress, where it is still to be done
+
 // Of what lobes that need so many bands leave of each: GGX falls to 1e-3 there.
 std::vector<double> power_for(int band_count) {
     const double alpha = 4.5 / band_count;
@@ -37,11 +40,12 @@ std::vector<double> power_for(int band_count) {
 
 // A source in so many bands.
 struct Analysed {
-    Analysed(const EnvironmentMap& source, int band_count, std::shared_ptr<ScratchPool> scratch)
+    Analysed(const EnvironmentMap& source, int band_count, std::shared_ptr<ScratchPool> scratch,
+             const Progress& progress)
         : table(std::make_shared<const LegendreTable>(band_count)),
           analysis(shape_of(source), table, band_count, power_for(band_count), std::move(scratch)),
           harmonics(band_count) {
-        analysis.run(source.levels[0].faces, harmonics);
+        analysis.run(source.levels[0].faces, harmonics, progress);
         spectrum = power_spectrum(harmonics);
     }
 
@@ -70,13 +74,13 @@ class LobeFilter::Impl {
               solid_angle_table(source_->projection, source_->width(), source_->height())),
           range_(range_of(*source_, solid_angles_)) {}
 
-    EnvironmentMap make(const PrefilterTarget& target);
+    EnvironmentMap make(const PrefilterTarget& target, const Progress& progress);
     [[nodiscard]] bool is_quick(const PrefilterTarget& target) const;
 
     std::shared_ptr<const EnvironmentMap> source_;
 
   private:
-    Analysed& analysed(std::size_t band_count);
+    Analysed& analysed(std::size_t band_count, const Progress& progress = {});
     LightLevels* lights();
     const NearField& whole();
     FilteredTarget filtered(const PrefilterTarget& target, const BandSplit& split,
@@ -92,10 +96,10 @@ class LobeFilter::Impl {
 };
 
 // The one with so many bands or the next more.
-Analysed& LobeFilter::Impl::analysed(std::size_t band_count) {
+Analysed& LobeFilter::Impl::analysed(std::size_t band_count, const Progress& progress) {
     std::size_t i = 0;
     while (static_cast<std::size_t>(kBandCounts[i]) < band_count) ++i;
-    if (!analysed_[i]) analysed_[i].emplace(*source_, kBandCounts[i], scratch_);
+    if (!analysed_[i]) analysed_[i].emplace(*source_, kBandCounts[i], scratch_, progress);
     return *analysed_[i];
 }
 
@@ -124,13 +128,13 @@ FilteredTarget LobeFilter::Impl::filtered(const PrefilterTarget& target, const B
     return result;
 }
 
-EnvironmentMap LobeFilter::Impl::make(const PrefilterTarget& target) {
+EnvironmentMap LobeFilter::Impl::make(const PrefilterTarget& target, const Progress& progress) {
     TargetRules::check(target);
-    if (target.lobe.is_delta()) return mirror_target(*source_, target, {});
+    if (target.lobe.is_delta()) return mirror_target(*source_, target, progress);
     const std::optional<BandSplit> split = rules_.split(target);
-    if (!split) return prefilter_reference(*source_, target);
+    if (!split) return prefilter_reference(*source_, target, progress);
 
-    Analysed& source = analysed(split->far.size());
+    Analysed& source = analysed(split->far.size(), part_of(progress, 0, kAnalysisShare));
     const FilteredTarget usual = filtered(target, *split, source);
     Choice choice = rules_.choose_lights(usual, source.spectrum, lights());
     std::optional<FilteredTarget> dense;
@@ -149,7 +153,8 @@ EnvironmentMap LobeFilter::Impl::make(const PrefilterTarget& target) {
         near = &lights()->field(*choice.light_level);
     }
     EnvironmentMap map = make_target(target);
-    choice.target->make_map(source.harmonics, range_, near, map);
+    choice.target->make_map(source.harmonics, range_, near, map,
+                            part_of(progress, kAnalysisShare, 1));
     return map;
 }
 
@@ -165,8 +170,8 @@ LobeFilter::LobeFilter(std::shared_ptr<const EnvironmentMap> source,
 
 LobeFilter::~LobeFilter() = default;
 
-EnvironmentMap LobeFilter::operator()(const PrefilterTarget& target) {
-    return impl_->make(target);
+EnvironmentMap LobeFilter::operator()(const PrefilterTarget& target, const Progress& progress) {
+    return impl_->make(target, progress);
 }
 
 bool LobeFilter::is_quick(const PrefilterTarget& target) const {

@@ -93,7 +93,7 @@ void fill(P p, const EnvironmentMap& map, const Block& block, const EnvironmentM
 }
 
 void add(const NearField& field, const NearKernel& near, const EnvironmentMap* far_weights,
-         float integral, const Clamp& clamp, EnvironmentMap& map) {
+         float integral, const Clamp& clamp, EnvironmentMap& map, const Progress& progress) {
     const int width = map.width(), height = map.height();
     const int edge = tile_edge(height);
     const int across = (width + edge - 1) / edge, down = (height + edge - 1) / edge;
@@ -102,44 +102,48 @@ void add(const NearField& field, const NearKernel& near, const EnvironmentMap* f
         const std::vector<double> solid_angles =
             P::fills_square ? std::vector<double>()
                             : solid_angle_table(map.projection, width, height);
-        parallel_for(std::int64_t{P::face_count} * down * across, [&](std::int64_t i) {
-            const int face = static_cast<int>(i / (across * down));
-            const int x = static_cast<int>(i % across) * edge;
-            const int y = static_cast<int>(i / across % down) * edge;
-            const Block block{face, x, std::min(x + edge, width), y, std::min(y + edge, height)};
-            Image& image = map.levels[0].faces[face];
-            constexpr bool is_cube = std::is_same_v<P, Cube>;
-            if (is_cube && far_weights == nullptr && !reaches(p, field, near, map, block))
-                return clamp_block(block, clamp, image);
-            TileBuffer buffer;
-            fill(p, map, block, far_weights, buffer);
-            field.add(near, buffer.tile(far_weights != nullptr));
-            std::size_t k = 0;
-            for (int row = block.y0; row < block.y1; ++row) {
-                for (int column = block.x0; column < block.x1; ++column, ++k) {
-                    if (!P::fills_square &&
-                        solid_angles[static_cast<std::size_t>(row) * width + column] == 0)
-                        continue;
-                    Vec3f rgb(buffer.r[k], buffer.g[k], buffer.b[k]);
-                    if (far_weights != nullptr) rgb *= integral / buffer.weight[k];
-                    image.set_rgb(column, row, clamp(rgb));
+        parallel_for(
+            std::int64_t{P::face_count} * down * across,
+            [&](std::int64_t i) {
+                const int face = static_cast<int>(i / (across * down));
+                const int x = static_cast<int>(i % across) * edge;
+                const int y = static_cast<int>(i / across % down) * edge;
+                const Block block{face, x, std::min(x + edge, width), y,
+                                  std::min(y + edge, height)};
+                Image& image = map.levels[0].faces[face];
+                constexpr bool is_cube = std::is_same_v<P, Cube>;
+                if (is_cube && far_weights == nullptr && !reaches(p, field, near, map, block))
+                    return clamp_block(block, clamp, image);
+                TileBuffer buffer;
+                fill(p, map, block, far_weights, buffer);
+                field.add(near, buffer.tile(far_weights != nullptr));
+                std::size_t k = 0;
+                for (int row = block.y0; row < block.y1; ++row) {
+                    for (int column = block.x0; column < block.x1; ++column, ++k) {
+                        if (!P::fills_square &&
+                            solid_angles[static_cast<std::size_t>(row) * width + column] == 0)
+                            continue;
+                        Vec3f rgb(buffer.r[k], buffer.g[k], buffer.b[k]);
+                        if (far_weights != nullptr) rgb *= integral / buffer.weight[k];
+                        image.set_rgb(column, row, clamp(rgb));
+                    }
                 }
-            }
-        });
+            },
+            progress);
     });
 }
 
 }  // namespace
 
 void add_near(const NearField& field, const NearKernel& near, const Vec3f& lowest,
-              const Vec3f& highest, EnvironmentMap& map) {
-    add(field, near, nullptr, 1, {lowest, highest}, map);
+              const Vec3f& highest, EnvironmentMap& map, const Progress& progress) {
+    add(field, near, nullptr, 1, {lowest, highest}, map, progress);
 }
 
 void add_near_normalised(const NearField& field, const NearKernel& near,
                          const EnvironmentMap& far_weights, double integral, const Vec3f& lowest,
-                         const Vec3f& highest, EnvironmentMap& map) {
-    add(field, near, &far_weights, static_cast<float>(integral), {lowest, highest}, map);
+                         const Vec3f& highest, EnvironmentMap& map, const Progress& progress) {
+    add(field, near, &far_weights, static_cast<float>(integral), {lowest, highest}, map, progress);
 }
 
 }  // namespace mirrorball::detail

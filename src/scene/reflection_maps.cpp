@@ -78,8 +78,8 @@ int mirror_map_size(const EnvironmentMap& environment, Projection projection) {
 }
 
 EnvironmentMap make_mirror_map(const EnvironmentMap& environment, Projection projection, int size,
-                               const Axes& axes) {
-    EnvironmentMap map = resample(environment, projection, size, axes);
+                               const Axes& axes, const Progress& progress) {
+    EnvironmentMap map = resample(environment, projection, size, axes, {.progress = progress});
     append_mip_levels(map);
     return map;
 }

@@ -9,12 +9,15 @@
 
 #include <fmt/format.h>
 
+#include <mirrorball/builtin.h>
 #include <mirrorball/error.h>
 
 #include "scene/bump_texels.h"
 
 namespace mirrorball {
 namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
 
 // What is left of the memory that all assets may hold.
 class Budget {
@@ -136,7 +139,7 @@ void add_tangents(Mesh& mesh, const std::string& name) {
 
 // A list of files, or a pattern, or one: each of them relative to the folder.
 std::string environment_source(const std::string& source, const std::filesystem::path& folder) {
-    if (source.rfind("builtin:", 0) == 0) return source;
+    if (source.starts_with(kBuiltin)) return source;
     std::string result;
     for (std::size_t start = 0; start <= source.size();) {
         const std::size_t end = std::min(source.find(',', start), source.size());
@@ -215,6 +218,13 @@ void load_missing(SceneAssets& assets, const Scene& scene, const std::filesystem
 
 LoadedMap load_environment(const SceneEnvironment& environment, const std::filesystem::path& folder,
                            const AssetOptions& options) {
+    if (options.builtin_width > 0 && environment.source.starts_with(kBuiltin)) {
+        LoadedMap drawn;
+        drawn.map = make_builtin(environment.source.substr(kBuiltin.size()), Projection::equirect,
+                                 options.builtin_width, default_axes(Projection::equirect));
+        drawn.format = "built-in";
+        return drawn;
+    }
     MapReadOptions read_options;
     read_options.memory_limit = options.memory_limit;
     return read_map(environment_source(environment.source, folder), read_options);

@@ -105,7 +105,8 @@ class Viewer::Impl {
     }
 
     // The scene and all that is made of its names. Nothing is changed until all of it is there.
-    void set(const Scene& scene);
+    /// The mesh of the name `anew` is read again, if it was before.
+    void set(const Scene& scene, const std::string& anew = {});
     void open(const Scene& scene, const fs::path& folder);
     void show_environment(Scene scene, LoadedMap map);
     void draw(int width, int height, int left, int bottom);
@@ -140,7 +141,7 @@ class Viewer::Impl {
     };
 
     [[nodiscard]] AssetOptions asset_options() const {
-        return {.memory_limit = options_.memory_limit};
+        return {.memory_limit = options_.memory_limit, .builtin_width = options_.builtin_width};
     }
     void adopt(const Scene& scene, std::shared_ptr<const SceneAssets> assets);
     void take_environment(const LoadedMap& loaded);
@@ -179,13 +180,14 @@ void Viewer::Impl::adopt(const Scene& scene, std::shared_ptr<const SceneAssets> 
     selected_ = std::min(selected_, scene_.objects.empty() ? 0 : scene_.objects.size() - 1);
 }
 
-void Viewer::Impl::set(const Scene& scene) {
+void Viewer::Impl::set(const Scene& scene, const std::string& anew) {
     if (scene.environment.source != scene_.environment.source) {
         show_environment(scene, load_environment(scene.environment, folder_, asset_options()));
         return;
     }
-    if (is_loaded(scene, *assets_)) return adopt(scene, assets_);
+    if (anew.empty() && is_loaded(scene, *assets_)) return adopt(scene, assets_);
     SceneAssets assets = *assets_;
+    assets.meshes.erase(anew);
     load_missing(assets, scene, folder_, asset_options());
     adopt(scene, std::make_shared<const SceneAssets>(std::move(assets)));
 }
@@ -250,7 +252,10 @@ void Viewer::Impl::draw_sides(bool again, int left, int bottom) {
             if (again) side.picture.reset();
             break;
         }
-        if (!side.renderer) side.renderer.emplace(assets_);
+        if (!side.renderer) {
+            side.renderer.emplace(assets_);
+            side.renderer->report_to(options_.prefiltering);
+        }
         if (!side.picture) side.picture.emplace(width_, height_);
         if (again) side.picture->start_again();
     }
@@ -390,7 +395,7 @@ Dropped Viewer::drop(const fs::path& path) {
                 Scene next = scene();
                 if (next.objects.empty()) next.objects = usual_scene().objects;
                 next.objects[selected()].mesh = fs::absolute(path).string();
-                impl_->set(next);
+                impl_->set(next, next.objects[selected()].mesh);
                 frame_all(impl_->aspect());
                 const Mesh& mesh = assets().meshes.at(scene().objects[selected()].mesh);
                 return {true, fmt::format("{}: {} triangles", path.filename().string(),
@@ -399,6 +404,7 @@ Dropped Viewer::drop(const fs::path& path) {
             case FileKind::environment: {
                 MapReadOptions options;
                 options.memory_limit = impl_->options_.memory_limit;
+                options.progress = impl_->options_.reading;
                 return drop_environment(fs::absolute(path).string(),
                                         read_map(path.string(), options));
             }

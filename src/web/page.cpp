@@ -30,7 +30,7 @@ using nlohmann::json;
 constexpr std::uint64_t kMemoryLimit = std::uint64_t{512} << 20;
 
 constexpr std::string_view kBuiltin = "builtin:";
-// Of the panorama that stands for one whose drawing takes its time.
+// Of built-in environments until they are drawn elsewhere, which takes seconds.
 constexpr int kCoarseWidth = 128;
 
 constexpr Projection kShownProjections[] = {Projection::equirect, Projection::cube,
@@ -92,8 +92,12 @@ class Page {
         });
     }
 
-    /// Opens the viewer: in the state that a link has, or the usual one. A built-in environment is
-    /// a coarse one at first, until take_builtin() brings it.
+    /// `tell` is called while something takes its time: with a word for it and the share that is
+    /// done.
+    explicit Page(emscripten::val tell) : tell_(std::move(tell)) {}
+
+    /// Opens the viewer: in the state that a link has, or the usual one. Built-in environments are
+    /// coarse ones, here and in all else, until take_builtin() brings the whole.
     std::string open(const std::string& text, double aspect) {
         return reply([&] {
             ViewerState state;
@@ -103,18 +107,11 @@ class Page {
             } else {
                 state = parse_viewer_state(text);
             }
-            const std::string source = state.scene.environment.source;
-            const bool is_builtin = source.starts_with(kBuiltin);
-            if (is_builtin) state.scene.environment.source = "builtin:white";
             viewer_.emplace(state.scene, std::filesystem::path(),
-                            Viewer::Options{.memory_limit = kMemoryLimit});
-            if (is_builtin) {
-                LoadedMap coarse;
-                coarse.map = make_builtin(source.substr(kBuiltin.size()), Projection::equirect,
-                                          kCoarseWidth, default_axes(Projection::equirect));
-                coarse.format = "built-in";
-                take(source, std::move(coarse));
-            }
+                            Viewer::Options{.memory_limit = kMemoryLimit,
+                                            .builtin_width = kCoarseWidth,
+                                            .reading = telling("reading"),
+                                            .prefiltering = telling("prefiltering")});
             viewer_->set_comparison(state.comparison);
             viewer_->select(state.selected);
             if (text.empty()) viewer_->frame_all(aspect);
@@ -127,7 +124,9 @@ class Page {
     emscripten::val builtin(const std::string& source) {
         auto result = emscripten::val::object();
         const std::string answer = reply([&] {
-            made_ = read_map(source).map.levels[0].faces[0];
+            MapReadOptions options;
+            options.progress = telling("drawing");
+            made_ = read_map(source, options).map.levels[0].faces[0];
             result.set("width", made_.width());
             result.set("height", made_.height());
             result.set("values", emscripten::val(emscripten::typed_memory_view(
@@ -143,7 +142,12 @@ class Page {
             LoadedMap map = read_map(path);
             map.format = "built-in";
             map.notes.clear();
-            take(source, std::move(map));
+            const double exposure = viewer_->scene().exposure;
+            const Dropped dropped = viewer_->drop_environment(source, std::move(map));
+            if (!dropped.taken) throw Error(Errc::cannot_read, dropped.message);
+            Scene scene = viewer_->scene();
+            scene.exposure = exposure;
+            viewer_->set_scene(scene);
             return json::object();
         });
     }
@@ -151,6 +155,8 @@ class Page {
     [[nodiscard]] std::string status() {
         return reply([&] {
             const Comparison& comparison = viewer_->comparison();
+            const bool is_coarse = viewer_->scene().environment.source.starts_with(kBuiltin) &&
+                                   viewer_->assets().environment.width() == kCoarseWidth;
             return json{{"scene", json::parse(to_json(viewer_->scene()))},
                         {"showing", name(comparison.showing)},
                         {"other", name(comparison.other)},
@@ -159,6 +165,7 @@ class Page {
                         {"selected", viewer_->selected()},
                         {"stops", viewer_->exposure_stops()},
                         {"notes", viewer_->environment_notes()},
+                        {"coarse", is_coarse},
                         {"state", viewer_->state()}};
         });
     }
@@ -166,6 +173,17 @@ class Page {
     std::string set_scene(const std::string& text) {
         return reply([&] {
             viewer_->set_scene(parse_scene(text, "scene"));
+            return json::object();
+        });
+    }
+    /// With the environment and the camera that there are: they may be others by now than when the
+    /// script saw the scene.
+    std::string edit_scene(const std::string& text) {
+        return reply([&] {
+            Scene scene = parse_scene(text, "scene");
+            scene.environment.source = viewer_->scene().environment.source;
+            scene.camera = viewer_->scene().camera;
+            viewer_->set_scene(scene);
             return json::object();
         });
     }
@@ -260,16 +278,14 @@ class Page {
     }
 
   private:
-    // In place of the environment that is shown, of which all else stays.
-    void take(const std::string& source, LoadedMap map) {
-        const double exposure = viewer_->scene().exposure;
-        const Dropped dropped = viewer_->drop_environment(source, std::move(map));
-        if (!dropped.taken) throw Error(Errc::cannot_read, dropped.message);
-        Scene scene = viewer_->scene();
-        scene.exposure = exposure;
-        viewer_->set_scene(scene);
+    [[nodiscard]] Progress telling(const char* what) const {
+        return [what, tell = tell_](double share) {
+            tell(std::string(what), share);
+            return true;
+        };
     }
 
+    emscripten::val tell_;
     std::optional<Viewer> viewer_;
     Image made_;
 };
@@ -280,13 +296,14 @@ class Page {
 EMSCRIPTEN_BINDINGS(mirrorball) {
     using mirrorball::Page;
     emscripten::class_<Page>("Page")
-        .constructor<>()
+        .constructor<emscripten::val>()
         .class_function("facts", &Page::facts)
         .function("open", &Page::open)
         .function("builtin", &Page::builtin)
         .function("take_builtin", &Page::take_builtin)
         .function("status", &Page::status)
         .function("set_scene", &Page::set_scene)
+        .function("edit_scene", &Page::edit_scene)
         .function("set_state", &Page::set_state)
         .function("set_comparison", &Page::set_comparison)
         .function("set_stops", &Page::set_stops)

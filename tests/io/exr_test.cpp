@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 
 #include "container_support.h"
+#include "exr_support.h"
 
 namespace mirrorball {
 namespace {
@@ -34,47 +35,6 @@ WriteOptions with_format(TexelFormat format) {
     WriteOptions options;
     options.format = format;
     return options;
-}
-
-// A picture that the library writes itself, so that it has what we never write.
-using Change = std::function<void(Imf::Header&)>;
-Bytes made(const Image& image, const std::vector<std::string>& channels,
-           const Change& change = {}) {
-    const TemporaryFolder folder;
-    const std::string path = folder / "made.exr";
-    {
-        Imf::Header header(image.width(), image.height());
-        for (const std::string& name : channels)
-            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-        if (change) change(header);
-        const Box2i window = header.dataWindow();
-        Imf::FrameBuffer buffer;
-        const std::size_t texel = sizeof(float) * image.channels();
-        for (std::size_t c = 0; c < channels.size(); ++c)
-            buffer.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, image.values().data() + c,
-                                                        window.min, image.width(), image.height(),
-                                                        texel, texel * image.width()));
-        if (header.hasTileDescription()) {
-            Imf::TiledOutputFile file(path.c_str(), header, 0);
-            file.setFrameBuffer(buffer);
-            for (int ly = 0; ly < file.numYLevels(); ++ly)
-                for (int lx = 0; lx < file.numXLevels(); ++lx)
-                    if (file.isValidLevel(lx, ly))
-                        file.writeTiles(0, file.numXTiles(lx) - 1, 0, file.numYTiles(ly) - 1, lx,
-                                        ly);
-        } else {
-            Imf::OutputFile file(path.c_str(), header, 0);
-            file.setFrameBuffer(buffer);
-            file.writePixels(image.height());
-        }
-    }
-    return file_bytes(path);
-}
-
-FileContents plain(Image image) {
-    FileContents contents;
-    contents.levels.emplace_back().push_back(std::move(image));
-    return contents;
 }
 
 // Pictures

@@ -1,5 +1,5 @@
-# Three tests: installs what was built into a folder of the build tree, then configures, builds and
-# runs the consumer beside this file against it.
+# Installs what was built into a folder of the build tree, then configures, builds and runs the
+# consumers beside this file against it.
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/package/prefix)
 add_test(NAME package.install
     COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
@@ -17,5 +17,7 @@ set_tests_properties(package.consumer PROPERTIES FIXTURES_REQUIRED package)
 add_test(NAME package.picture
     COMMAND ${CMAKE_CURRENT_BINARY_DIR}/package/build/picture
     WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/package/build)
-set_tests_properties(package.picture PROPERTIES FIXTURES_REQUIRED package DEPENDS package.consumer
+add_test(NAME package.viewer COMMAND ${CMAKE_CURRENT_BINARY_DIR}/package/build/viewer)
+set_tests_properties(package.picture package.viewer PROPERTIES
+    FIXTURES_REQUIRED package DEPENDS package.consumer SKIP_RETURN_CODE 77
     ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")  # see tests/cli/CMakeLists.txt

@@ -113,16 +113,18 @@ async function compare_with_program(name) {
   return differences(ours, await texels(readFileSync(join(output, `${name}.png`))));
 }
 
-async function drop(name, bytes) {
-  await page.evaluate(([name, base64]) => {
-    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+const drop = (name, bytes) => drop_all({ [name]: bytes });
+async function drop_all(files) {
+  const list = Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')]);
+  await page.evaluate((list) => {
     const carried = new DataTransfer();
-    carried.items.add(new File([bytes], name));
+    for (const [name, base64] of list)
+      carried.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
     document.body.dataset.prefilter = '';
     document.getElementById('error').hidden = true;
     document.body.dispatchEvent(new DragEvent('drop',
       { dataTransfer: carried, bubbles: true, cancelable: true }));
-  }, [name, Buffer.from(bytes).toString('base64')]);
+  }, list);
   await page.waitForFunction(() => document.body.dataset.prefilter ||
     !document.getElementById('error').hidden, null, { timeout: 60_000 });
   await ask('status');
@@ -318,8 +320,9 @@ test('a link shows the same scene', async () => {
     scene.method = 'octahedral';
     scene.lights = [{ directional: { direction: [1, 1, 0], normal_irradiance: 2 } }];
   });
-  await page.evaluate(() => mirrorball.refresh());
-  await page.waitForTimeout(1500);
+  await page.evaluate(() => { delete document.body.dataset.painted; mirrorball.refresh(); });
+  await painted(page);
+  await page.waitForTimeout(500);
   const fragment = new URL(page.url()).hash;
   const [state, picture] = [(await ask('status')).state, await texels(await screenshot())];
   const first = page;
@@ -335,7 +338,157 @@ test('a link shows the same scene', async () => {
   await other.close();
 });
 
-test('the mouse, keys and touch move the view', async () => {
+test('another address shows its scene at once, coarse, and then whole', async () => {
+  await set_scene((scene) => { scene.environment = { source: 'builtin:white' }; });
+  const time = await page.evaluate(async () => {
+    delete document.body.dataset.painted;
+    const start = performance.now();
+    location.hash = '#scene={"environment":{"source":"builtin:sunset"},"objects":[{"mesh":"torus"}]}';
+    while ((await mirrorball.ask('status')).scene.objects[0].mesh !== 'torus')
+      await new Promise((resolve) => setTimeout(resolve, 5));
+    return performance.now() - start;
+  });
+  figures['another address, coarse, ms'] = time.toFixed(0);
+  // The whole takes seconds, also where nothing else is computed.
+  assert.ok(time < 1500, `${time} ms`);
+  assert.ok((await ask('status')).coarse);
+  await page.waitForFunction(() => document.getElementById('status').textContent.startsWith('Drawing sunset') &&
+    document.getElementById('progress').value > 0.1);
+  await painted(page);
+  assert.equal((await ask('status')).coarse, false);
+  assert.match(await page.textContent('#status'), /sunset: built-in, equirect 1024 x 512/);
+});
+
+test('an environment that comes late leaves the view and the sliders as they are', async () => {
+  await page.selectOption('#environment', 'builtin:noon');
+  const before = JSON.stringify((await ask('status')).scene.camera);
+  await page.evaluate(() => mirrorball.ask('orbit', [40, 10, 400]));
+  const turned = JSON.stringify((await ask('status')).scene.camera);
+  assert.notEqual(turned, before);
+  await page.evaluate(() => { delete document.body.dataset.painted; });
+  await slide('mirror', 0.5);
+  await painted(page);
+  const { scene } = await ask('status');
+  assert.equal(scene.environment.source, 'builtin:noon');
+  assert.equal(scene.objects[0].material.mirror, 0.5);
+  assert.equal(JSON.stringify(scene.camera), turned);
+});
+
+// A tetrahedron as glTF, its numbers beside it or in one file with it.
+const kCorners = [[0, 1, 0], [0.94, -0.33, 0], [-0.47, -0.33, 0.82], [-0.47, -0.33, -0.82]];
+const kFaces = [[0, 2, 1], [0, 3, 2], [0, 1, 3], [1, 2, 3]];
+function tetrahedron() {
+  const bin = Buffer.alloc(48 + 24);
+  kCorners.flat().forEach((value, i) => bin.writeFloatLE(value, 4 * i));
+  kFaces.flat().forEach((value, i) => bin.writeUInt16LE(value, 48 + 2 * i));
+  const gltf = { asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+    buffers: [{ byteLength: bin.length }],
+    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 24 }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-0.47, -0.33, -0.82], max: [0.94, 1, 0.82] },
+      { bufferView: 1, componentType: 5123, count: 12, type: 'SCALAR' }] };
+  return { bin, gltf };
+}
+function glb({ bin, gltf }) {
+  const text = JSON.stringify(gltf), json = Buffer.from(text.padEnd(Math.ceil(text.length / 4) * 4));
+  const words = (...values) => Buffer.from(Uint32Array.from(values).buffer);
+  return Buffer.concat([words(0x46546c67, 2, 28 + json.length + bin.length), words(json.length, 0x4e4f534a),
+    json, words(bin.length, 0x004e4942), bin]);
+}
+const obj = (scale) => kCorners.map((corner) => `v ${corner.map((x) => x * scale).join(' ')}\n`).join('') +
+  kFaces.map((face) => `f ${face.map((i) => i + 1).join(' ')}\n`).join('');
+
+test('meshes and scenes are dropped, look as the program shows them, and fail in its words', async () => {
+  const keep = (files) => {
+    for (const [name, bytes] of Object.entries(files)) writeFileSync(join(output, name), bytes);
+    return files;
+  };
+  const check = async (name, mesh) => {
+    assert.equal(await error_text(), '', name);
+    assert.equal((await ask('status')).scene.objects[0].mesh.split('/').pop(), mesh);
+    const apart = await compare_with_program(name);
+    assert.ok(apart.mean < 0.5 && apart.within <= 4, `${name}: ${JSON.stringify(apart)}`);
+    return texels(readFileSync(join(output, `${name}-page.png`)));
+  };
+  await set_scene((scene) => {
+    scene.environment = { source: 'builtin:axes' };
+    scene.objects = [{ mesh: 'sphere', material: 'gold' }];
+    scene.lights = [];
+  });
+  await page.evaluate(() => { delete document.body.dataset.painted; mirrorball.refresh(); });
+  await painted(page);
+
+  await drop_all(keep({ 'corner.obj': obj(1) }));
+  const usual = await check('mesh-obj', 'corner.obj');
+  await drop_all(keep({ 'corner.glb': glb(tetrahedron()) }));
+  assert.ok(differences(usual, await check('mesh-glb', 'corner.glb')).mean < 0.1);
+  const beside = tetrahedron();
+  beside.gltf.buffers[0].uri = 'corner.bin';
+  await drop_all(keep({ 'corner.gltf': JSON.stringify(beside.gltf), 'corner.bin': beside.bin }));
+  assert.ok(differences(usual, await check('mesh-gltf', 'corner.gltf')).mean < 0.1);
+  // An edited file of the same name is another mesh: the view is as far from it as its size asks.
+  const eye = async () => Math.hypot(...(await ask('status')).scene.camera.eye);
+  await drop_all(keep({ 'corner.obj': obj(1) }));
+  const near = await eye();
+  await drop_all(keep({ 'corner.obj': obj(2) }));
+  assert.ok(await eye() > 1.5 * near);
+
+  // A scene, and what it names.
+  run('sky', 'studio', '-o', 'room.hdr', '--size', '256');
+  const scene = { environment: { source: 'room.hdr', yaw_degrees: 30 },
+    objects: [{ mesh: 'corner.glb', material: 'copper' }], camera: { eye: [0, 1, 4], target: [0, 0, 0] } };
+  await drop_all({ 'room.json': JSON.stringify(scene), 'room.hdr': readFileSync(join(output, 'room.hdr')),
+    'corner.glb': glb(tetrahedron()) });
+  await check('scene', 'corner.glb');
+  assert.match(await page.textContent('#status'), /room\.hdr: Radiance HDR, equirect 256 x 128/);
+
+  const { bin, gltf } = tetrahedron();
+  const far = structuredClone(gltf);
+  far.accessors[1].count = 1000;
+  const before_state = (await ask('status')).state;
+  for (const [name, bytes] of Object.entries(keep({
+    'cut.obj': 'v 0 0 0\nv 1 0 0\n', 'numbers.obj': 'v 0 0 zero\nf 1 1 1\n', 'cut.glb': glb({ bin, gltf }).subarray(0, 300),
+    'rubbish.glb': 'rubbish', 'far.glb': glb({ bin, gltf: far }), 'alone.gltf': JSON.stringify({ ...gltf,
+      buffers: [{ byteLength: bin.length, uri: 'nowhere.bin' }] }), 'empty.gltf': '',
+    'lost.json': '{"objects": [{"mesh": "nowhere.obj"}]}', 'dark.json': '{"environment": {"source": "nowhere.hdr"}}',
+    'comma.json': '{"objects": [,]}', 'method.json': '{"method": "guess"}' }))) {
+    await drop(name, Buffer.from(bytes));
+    const shown = (await error_text()).replace(/^objects\[0\]: /, '');
+    const told = spawnSync(program, name.endsWith('.json') ? ['render', name, '-o', 'no.png']
+      : ['render', '--mesh', name, '-o', 'no.png'], { cwd: output, encoding: 'utf8' }).stderr;
+    assert.ok(shown.length > 10 && told.includes(shown), `${name}\n  page: ${shown}\n  program: ${told}`);
+  }
+  assert.equal((await ask('status')).state, before_state);
+});
+
+test('reading and prefiltering say how far they are', async () => {
+  run('sky', 'studio', '-o', 'large.hdr', '--size', '4096');
+  await page.evaluate(() => {
+    globalThis.seen = [];
+    const bar = document.getElementById('progress');
+    globalThis.watcher = new MutationObserver(() => {
+      if (bar.hasAttribute('value'))
+        seen.push([document.getElementById('status').textContent, bar.value, bar.getAttribute('aria-valuetext')]);
+    });
+    watcher.observe(bar, { attributes: true });
+  });
+  await set_scene((scene) => { scene.objects[0].material = 'satin-gold'; });
+  await drop('large.hdr', readFileSync(join(output, 'large.hdr')));
+  assert.equal(await error_text(), '');
+  const seen = await page.evaluate(() => { watcher.disconnect(); return seen; });
+  for (const [word, least] of [['Reading large.hdr …', 1], ['Prefiltering …', 3]]) {
+    const of_word = seen.filter(([text]) => text === word);
+    const shares = of_word.map(([, share]) => share);
+    figures[`${word} told`] = `${of_word.length} times`;
+    assert.ok(new Set(shares).size >= least && shares.every((share, i) => share > 0 && share < 1 &&
+      share >= (shares[i - 1] ?? 0)), `${word} ${shares}`);
+    assert.match(of_word.at(-1)[2], /^.* … \d+ %$/);
+  }
+  await page.waitForFunction(() => !document.body.classList.contains('busy'));
+  assert.equal(await page.$eval('#progress', (bar) => bar.hasAttribute('value')), false);
+});
+
+test('the mouse and keys move the view', async () => {
   const eye = async () => JSON.stringify((await ask('status')).scene.camera.eye);
   const box = await (await page.$('#canvas')).boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
@@ -382,6 +535,86 @@ test('pointing at a pixel marks where each map is looked up', async () => {
   assert.match(await page.textContent('#look'), /looks \(−?0\.00, −?0\.00, −1\.00\)/);
   const painted = await page.$$eval('figure canvas', (all) => all.map((one) => one.width));
   assert.ok(painted.length === 5 && painted.every((width) => width > 50), String(painted));
+});
+
+// Fingers, each [x, y], along `paths` in some steps.
+async function touch(session, paths, steps = 6) {
+  const at = (share) => paths.map(([from, to], id) => ({ id, x: from[0] + share * (to[0] - from[0]),
+    y: from[1] + share * (to[1] - from[1]) }));
+  const send = (type, touchPoints) => session.send('Input.dispatchTouchEvent', { type, touchPoints });
+  await send('touchStart', at(0));
+  for (let i = 1; i <= steps; ++i) await send('touchMove', at(i / steps));
+  await send('touchEnd', []);
+}
+
+test('fingers on a phone: one turns, two move and zoom, a tap marks, and every control is reached', async () => {
+  const first = page;
+  page = await open('#scene={"environment":{"source":"builtin:axes"},"objects":[{"mesh":"teapot","material":"chrome"}],"camera":{"eye":[0,1,5],"target":[0,0,0]}}',
+    { viewport: kPhone, hasTouch: true, isMobile: true });
+  await painted(page);
+  const session = await page.context().newCDPSession(page);
+  const camera = async () => {
+    await page.waitForTimeout(300);
+    const { eye, target = [0, 0, 0] } = (await ask('status')).scene.camera;
+    const away = eye.map((x, i) => x - target[i]);
+    const length = Math.hypot(...away);
+    return { target, distance: length, direction: away.map((x) => x / length) };
+  };
+  const apart = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
+  const box = await (await page.$('#canvas')).boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+
+  const start = await camera();
+  await touch(session, [[[x, y], [x + 80, y + 15]]]);
+  const turned = await camera();
+  assert.ok(apart(turned.direction, start.direction) > 0.3, 'one finger turns');
+  assert.ok(apart(turned.target, start.target) < 1e-6 && Math.abs(turned.distance / start.distance - 1) < 1e-6);
+  assert.equal(await page.evaluate(() => scrollY), 0);
+
+  // Twice as far from one another: twice as near.
+  await touch(session, [[[x - 40, y], [x - 80, y]], [[x + 40, y], [x + 80, y]]]);
+  const nearer = await camera();
+  assert.ok(Math.abs(nearer.distance / turned.distance - 0.5) < 0.05, `${nearer.distance / turned.distance}`);
+  assert.ok(apart(nearer.direction, turned.direction) < 1e-3);
+  await touch(session, [[[x - 80, y], [x - 40, y]], [[x + 80, y], [x + 40, y]]]);
+  const back = await camera();
+  assert.ok(Math.abs(back.distance / turned.distance - 1) < 0.05);
+
+  await touch(session, [[[x - 40, y], [x + 10, y + 30]], [[x + 40, y], [x + 90, y + 30]]]);
+  const moved = await camera();
+  assert.ok(apart(moved.target, back.target) > 0.1, 'two fingers move');
+  assert.ok(apart(moved.direction, back.direction) < 1e-3 && Math.abs(moved.distance / back.distance - 1) < 0.02);
+
+  await page.touchscreen.tap(x, y);
+  await page.waitForFunction(() => [...document.querySelectorAll('.mark')].some((mark) => !mark.hidden));
+
+  // Each control can be scrolled to, is large enough for a finger, and lies under nothing.
+  const controls = await page.$$('#controls select, #controls input, #controls button, #controls summary');
+  assert.ok(controls.length > 30);
+  for (const control of controls) {
+    if (!await control.isVisible() || await control.evaluate((one) => one.closest('[hidden]') !== null)) continue;
+    const found = await control.evaluate((one) => {
+      const target = one.matches('.hidden') ? one.closest('label') : one;
+      target.scrollIntoView({ block: 'center' });
+      const { x, y, width, height } = target.getBoundingClientRect();
+      const there = document.elementFromPoint(x + width / 2, y + height / 2);
+      const label = target.closest('label')?.getBoundingClientRect();
+      return { name: one.id || one.textContent, hit: target === there || target.contains(there),
+        size: Math.min(Math.max(width, label?.width ?? 0), Math.max(height, label?.height ?? 0)),
+        inside: x >= 0 && x + width <= innerWidth };
+    });
+    assert.ok(found.hit && found.inside && found.size >= 32, JSON.stringify(found));
+  }
+  // The picture stays in sight, and a slider moves by touch.
+  const slider = await page.$('#mirror');
+  await slider.evaluate((one) => one.scrollIntoView({ block: 'center' }));
+  const range = await slider.boundingBox();
+  await page.touchscreen.tap(range.x + 0.25 * range.width, range.y + range.height / 2);
+  await page.waitForFunction(() => Math.abs(document.getElementById('mirror').value - 0.25) < 0.06);
+  assert.ok((await (await page.$('#canvas')).boundingBox()).y >= 0);
+  await page.screenshot({ path: join(output, 'phone-slider.png') });
+  await page.close();
+  page = first;
 });
 
 test('it fits a phone and a desk, in the light and in the dark', async () => {

@@ -66,6 +66,9 @@ class Renderer {
     /// renderer, but for dynamic objects that are drawn a few faces at a time.
     void set_assets(std::shared_ptr<const SceneAssets> assets);
 
+    /// From now on, `progress` is told how far making a scene's maps is, once for each method's.
+    void report_to(Progress progress);
+
     /// Three channels. \throws Error(Errc::usage) for sizes out of range
     [[nodiscard]] Image picture(const Scene& scene, const PictureOptions& options = {});
 
