@@ -21,6 +21,16 @@ function wire_dropping() {
   });
 }
 
+// While something is held, the picture stays the quickest there is.
+function wire_holding() {
+  let held = false;
+  const hold = (by_hand) => { if (by_hand !== held) ask('hold', [held = by_hand]); };
+  addEventListener('pointerdown', (event) => {
+    if (event.target.matches('canvas, input[type=range]')) hold(true);
+  });
+  for (const end of ['pointerup', 'pointercancel', 'blur']) addEventListener(end, () => hold(false));
+}
+
 function fill_lists() {
   options($('environment'), facts.environments.map((one) => (
     { value: `builtin:${one.name}`, text: one.name, title: one.description })));
@@ -53,6 +63,7 @@ async function start() {
   make_map_list();
   wire_controls();
   wire_dropping();
+  wire_holding();
   wire_picture();
   await refresh();
   show_maps();

@@ -10,7 +10,7 @@ const kFolder = '/files';
 let module, page, canvas, gl;
 let scheduled = false, drawable = false, map_wish = null, sent_maps = new Map(), drawn_count = 0;
 // The picture's size in pixels; while it changes it may be drawn smaller, so that it follows the hand.
-let full = [1, 1], share = 1, resting = 0;
+let full = [1, 1], share = 1, resting = 0, held = false;
 const kSlow = 40, kQuick = 20, kLeastShare = 0.2, kRest = 200;  // milliseconds, and of a side
 
 // Messages name files as they were dropped.
@@ -87,7 +87,7 @@ function rest() {
   if (scheduled) return;
   set_size(1);
   const frame = draw_once();
-  tell({ frame });
+  tell({ frame: { ...frame, smooth: frame.smooth && !held } });
   if (frame.error) return;
   if (frame.smooth) return send_maps();
   resting = setTimeout(rest, 0);
@@ -264,6 +264,10 @@ const calls = {
   orbit: (...all) => page.orbit(...all),
   pan: (...all) => page.pan(...all),
   zoom: (steps) => page.zoom(steps),
+  hold(by_hand) {
+    held = by_hand;
+    page.hold(held);
+  },
   turn: (...all) => parsed(page.turn(...all)),
   frame_all: (aspect) => page.frame_all(aspect),
   press: (...all) => parsed(page.press(...all)),

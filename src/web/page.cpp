@@ -219,6 +219,7 @@ class Page {
     void orbit(double dx, double dy, int height) { viewer_->orbit(dx, dy, height); }
     void pan(double dx, double dy, int height) { viewer_->pan(dx, dy, height); }
     void zoom(double steps) { viewer_->zoom(steps); }
+    void hold(bool held) { viewer_->hold(held); }
     std::string turn(double dx, int height) {
         return reply([&] {
             viewer_->turn_environment(dx, height);
@@ -311,6 +312,7 @@ EMSCRIPTEN_BINDINGS(mirrorball) {
         .function("orbit", &Page::orbit)
         .function("pan", &Page::pan)
         .function("zoom", &Page::zoom)
+        .function("hold", &Page::hold)
         .function("turn", &Page::turn)
         .function("frame_all", &Page::frame_all)
         .function("press", &Page::press)

@@ -229,6 +229,26 @@ test('sliders change the material, exactly', async () => {
   assert.ok(apart.mean < 0.5 && apart.within <= 4, JSON.stringify(apart));
 });
 
+// GGX next to a mirror takes long to prefilter: a hand that holds the slider need not wait for it.
+test('a slider that is held shows quick pictures, and exact ones when it is let go', async () => {
+  const slider = await page.$('#lobe-parameter');
+  await slider.evaluate((one) => one.scrollIntoView({ block: 'center' }));
+  const range = await slider.boundingBox();
+  const y = range.y + range.height / 2;
+  await page.mouse.move(range.x + 0.4 * range.width, y);
+  await page.mouse.down();
+  for (const share of [0.3, 0.2, 0.1]) await page.mouse.move(range.x + share * range.width, y);
+  await page.waitForTimeout(800);
+  const parameter = Number((await ask('status')).scene.objects[0].material.lobe.slice(4));
+  assert.ok(parameter > 0.02 && parameter < 0.15, `ggx:${parameter}`);
+  assert.equal(await page.evaluate(() => document.body.dataset.smooth), 'false');
+  await page.mouse.up();
+  await page.waitForFunction(() => document.body.dataset.smooth === 'true', null, { timeout: 60_000 });
+  const apart = await compare_with_program('let-go');
+  assert.ok(apart.mean < 0.5 && apart.within <= 4, JSON.stringify(apart));
+  await page.evaluate(() => scrollTo(0, 0));
+});
+
 test('a generated panorama is dropped, in every format, and looks as the program shows it', async () => {
   await set_scene((scene) => { scene.objects[0].material = 'satin-gold'; });
   run('sky', 'studio', '-o', 'studio.hdr', '--size', '1024');
