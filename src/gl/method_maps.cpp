@@ -91,20 +91,20 @@ void MethodMaps::for_each_layer(WarpLayer&& warp_layer) {
     }
 }
 
-void MethodMaps::make(const Texture& cube, const Axes& cube_axes, const Axes& made_for,
-                      const Texture& into) {
+void MethodMaps::make(const Texture& cube, const Texture& into) {
     if (into.empty()) return;
     for_each_layer([&](Warp::Shape shape, int layer) {
-        warp_(cube, cube_axes, shape, made_for, into, layer, layer);
+        warp_(cube, made_->cube_axes, shape, made_->frame, into, layer, layer);
     });
     make_levels(into);
 }
 
 // Its levels are not each other's means: each is made of the cube's own.
-void MethodMaps::make_rough(const Texture& cube, const Axes& cube_axes, const Axes& made_for) {
+void MethodMaps::make_rough(const Texture& cube) {
     for_each_layer([&](Warp::Shape shape, int layer) {
         for (int level = 0; level < textures_.rough.level_count; ++level)
-            warp_.level(level, cube, cube_axes, shape, made_for, textures_.rough, layer, layer);
+            warp_.level(level, cube, made_->cube_axes, shape, made_->frame, textures_.rough, layer,
+                        layer);
     });
 }
 
@@ -123,17 +123,26 @@ void MethodMaps::make(const MapTextures& cubes, const Axes& cube_axes, const Axe
             make_faces(cubes.glossy[i], cube_axes, textures_.glossy_faces[i]);
         return;
     }
-    Axes made_for = axes_;
+    made_ = Made{cube_axes, axes_};
     if (projection_of(method_) == Projection::sphere) {
         // GL_SPHERE_MAP works in the eye's frame whatever the map was made for.
         axes_ = camera;
-        made_for = method_ == Method::sphere_stale ? Axes{} : camera;
+        made_->frame = method_ == Method::sphere_stale ? Axes{} : camera;
     }
-    make(cubes.mirror, cube_axes, made_for, textures_.mirror);
+    make(cubes.mirror, textures_.mirror);
     for (std::size_t i = 0; i < cubes.glossy.size(); ++i)
-        make(cubes.glossy[i], cube_axes, made_for, textures_.glossy[i]);
-    make(cubes.diffuse, cube_axes, made_for, textures_.diffuse);
-    if (!textures_.rough.empty()) make_rough(cubes.rough, cube_axes, made_for);
+        make(cubes.glossy[i], textures_.glossy[i]);
+    make(cubes.diffuse, textures_.diffuse);
+    if (!textures_.rough.empty()) make_rough(cubes.rough);
+}
+
+void MethodMaps::add_glossy(const Texture& cube) {
+    textures_.glossy.push_back(room(form_of(method_), cube, 1));
+    if (made_) make(cube, textures_.glossy.back());
+}
+
+void MethodMaps::remove_glossy(std::size_t lobe) {
+    textures_.glossy.erase(textures_.glossy.begin() + static_cast<std::ptrdiff_t>(lobe));
 }
 
 }  // namespace mirrorball::gl

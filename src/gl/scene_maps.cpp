@@ -96,6 +96,7 @@ void SceneMaps::make_glossy(const Lobe& lobe, const Progress& progress) {
     if (method_ == Method::cube_split) maps_.glossy_faces.push_back(upload_faces(map));
     maps_.glossy.push_back(std::move(texture));
     lobes_.push_back({lobe, 0});
+    if (warped_) warped_->add_glossy(maps_.glossy.back());
 }
 
 // And could be looked up in maps of every roughness.
@@ -106,7 +107,6 @@ bool SceneMaps::takes_long(const Lobe& lobe) const {
 
 void SceneMaps::set_lobes(std::span<const Lobe> lobes, bool quick, const Progress& progress) {
     ++turn_;
-    bool changed = false;
     double begun = 0;
     const auto count = static_cast<double>(lobes.size());
     for (const Lobe& lobe : lobes) {
@@ -115,25 +115,27 @@ void SceneMaps::set_lobes(std::span<const Lobe> lobes, bool quick, const Progres
         ++begun;
         if (i == lobes_.size()) {
             if (quick && takes_long(lobe)) {
-                changed = changed || maps_.rough.empty();
-                if (maps_.rough.empty()) make_rough(of_lobe);
+                need_rough(of_lobe);
                 continue;
             }
             make_glossy(lobe, of_lobe);
-            changed = true;
         }
         lobes_[i].used = turn_;
     }
-    changed = forget_unused() || changed;
-    if (!warped_ || !changed) return;
+    forget_unused();
+}
+
+void SceneMaps::need_rough(const Progress& progress) {
+    if (!maps_.rough.empty()) return;
+    make_rough(progress);
+    if (!warped_) return;
     warped_.emplace(method_, maps_);
     made_for_.reset();
 }
 
 // The least recently used first. All of those that are warped: they would be for each camera.
-bool SceneMaps::forget_unused() {
+void SceneMaps::forget_unused() {
     const std::uint64_t most = warped_ ? 0 : kMostUnusedBytes;
-    bool forgot = false;
     while (unused_bytes() > most) {
         const auto oldest =
             std::min_element(lobes_.begin(), lobes_.end(),
@@ -143,9 +145,8 @@ bool SceneMaps::forget_unused() {
         maps_.glossy.erase(maps_.glossy.begin() + place);
         if (!maps_.glossy_faces.empty())
             maps_.glossy_faces.erase(maps_.glossy_faces.begin() + place);
-        forgot = true;
+        if (warped_) warped_->remove_glossy(static_cast<std::size_t>(place));
     }
-    return forgot;
 }
 
 std::uint64_t SceneMaps::unused_bytes() const {

@@ -58,9 +58,10 @@ class SceneMaps {
     [[nodiscard]] EnvironmentMap filtered(const PrefilterTarget& target,
                                           const Progress& progress) const;
     void make_rough(const Progress& progress);
+    void need_rough(const Progress& progress);
     [[nodiscard]] bool takes_long(const Lobe& lobe) const;
     void make_glossy(const Lobe& lobe, const Progress& progress);
-    bool forget_unused();
+    void forget_unused();
     [[nodiscard]] std::uint64_t unused_bytes() const;
     [[nodiscard]] std::size_t index_of(const Lobe& lobe) const;
 

@@ -30,7 +30,7 @@
 namespace mirrorball {
 namespace {
 
-constexpr int kSampleCount = 8;
+constexpr SmoothPicture::Aim kAim{.sample_count = 8};
 constexpr double kZoomStep = 1.12, kNearest = 1.6, kFarthest = 30;
 const Vec3d kPlastic(0.05, 0.20, 0.45);  // as the report's ball of plastic
 
@@ -147,17 +147,16 @@ class Embedded {
             picture_->start_again();
         }
         changed_ = false;
-        if (picture_->can_show_first(kSampleCount))
-            return picture_->show_first(*renderer_, scene_, {});
+        if (picture_->is_first(kAim)) return picture_->show_first(*renderer_, scene_, kAim, {});
         add_sample();
         show_mean();
     }
-    [[nodiscard]] bool is_smooth() const { return picture_ && picture_->is_smooth(kSampleCount); }
+    [[nodiscard]] bool is_smooth() const { return picture_ && picture_->is_done(kAim); }
 
   private:
     void add_sample() {
         const gl::FramebufferGuard guard;
-        picture_->add(*renderer_, scene_, kSampleCount, programs_);
+        picture_->add(*renderer_, scene_, kAim, programs_);
     }
 
     void show_mean() {
