@@ -2,35 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <mirrorball/error.h>
 
 #include "check.h"
+#include "io/packed.h"
 
 namespace mirrorball::gl {
 namespace {
 
-constexpr float kLargestHalf = 65504;
-
-// A number that a half float holds: NaN counts as 0.
-float held(float value) {
-    return value >= -kLargestHalf ? std::min(value, kLargestHalf) : value < 0 ? -kLargestHalf : 0;
-}
-
-std::vector<float> rgba(const Image& image) {
-    std::vector<float> result;
-    result.reserve(static_cast<std::size_t>(image.texel_count()) * 4);
-    const int channels = image.channels();
-    for (int y = 0; y < image.height(); ++y) {
-        for (int x = 0; x < image.width(); ++x) {
-            const float* texel = image.at(x, y);
-            for (int c = 0; c < 3; ++c) result.push_back(held(texel[channels >= 3 ? c : 0]));
-            result.push_back(channels == 4 ? held(texel[3]) : 1);
-        }
+// Four half floats a texel, which drivers take as they are. What is too large for one becomes the
+// largest there is, and what is no number 0: it would spread.
+std::vector<std::uint16_t> half_texels(const Image& image) {
+    constexpr std::uint16_t kSign = 0x8000, kInfinite = 0x7c00, kLargest = 0x7bff;
+    std::vector<std::uint16_t> halves(static_cast<std::size_t>(image.texel_count()) * 4);
+    detail::pack(detail::Packing::rgba16f, image, std::as_writable_bytes(std::span(halves)));
+    for (std::uint16_t& half : halves) {
+        const std::uint16_t size = half & ~kSign, sign = half & kSign;
+        half = size < kInfinite ? half : size > kInfinite ? 0 : sign | kLargest;
     }
-    return result;
+    return halves;
 }
 
 void set_parameters(const Texture& texture) {
@@ -53,16 +49,16 @@ int largest_size(GLenum target) {
 
 // Writes a picture into one layer or face of a level of the texture that is bound.
 void fill(const Texture& texture, int level, int layer, const Image& image) {
-    const std::vector<float> values = rgba(image);
+    const std::vector<std::uint16_t> texels = half_texels(image);
     const int width = image.width(), height = image.height();
     if (texture.target == GL_TEXTURE_2D_ARRAY) {
-        glTexSubImage3D(texture.target, level, 0, 0, layer, width, height, 1, GL_RGBA, GL_FLOAT,
-                        values.data());
+        glTexSubImage3D(texture.target, level, 0, 0, layer, width, height, 1, GL_RGBA,
+                        GL_HALF_FLOAT, texels.data());
     } else {
         const GLenum target = texture.target == GL_TEXTURE_CUBE_MAP
                                   ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(layer)
                                   : texture.target;
-        glTexSubImage2D(target, level, 0, 0, width, height, GL_RGBA, GL_FLOAT, values.data());
+        glTexSubImage2D(target, level, 0, 0, width, height, GL_RGBA, GL_HALF_FLOAT, texels.data());
     }
 }
 

@@ -26,7 +26,6 @@ namespace {
 using namespace detail;
 
 constexpr std::array kBandCounts = {kFewBands, 512, 1024};
-constexpr std::size_t kQuickBands = 512;
 
 constexpr double kAnalysisShare = 0.5;  // of the progress, where it is still to be done
 
@@ -159,9 +158,7 @@ EnvironmentMap LobeFilter::Impl::make(const PrefilterTarget& target, const Progr
 }
 
 bool LobeFilter::Impl::is_quick(const PrefilterTarget& target) const {
-    if (target.lobe.is_delta()) return true;
-    const std::optional<BandSplit> split = rules_.split(target);
-    return split && split->far.size() <= kQuickBands && !rules_.takes_whole_source(target.lobe);
+    return target.lobe.is_delta() || rules_.is_quick(target.lobe);
 }
 
 LobeFilter::LobeFilter(std::shared_ptr<const EnvironmentMap> source,

@@ -18,6 +18,9 @@ namespace {
 // from fewer bands on.
 constexpr int kMostBands = 1024, kBandsBesideWholeSource = 512;
 
+// What a lobe may need that is to be made within a frame.
+constexpr int kQuickBands = 512;
+
 // What harmonics alone are asked for of a single lit texel, in tolerances: such a texel is put
 // right in space, and the spectra of all else fall, so that the error comes out far below. Where it
 // does not, and too many lights would have to be put right, more bands are taken.
@@ -98,6 +101,10 @@ std::optional<BandSplit> TargetRules::split(const PrefilterTarget& target) const
 
 BandSplit TargetRules::dense_split(const Lobe& lobe, int most_bands) const {
     return split_bands(lobe, kDenseSlack * tolerance_, most_bands);
+}
+
+bool TargetRules::is_quick(const Lobe& lobe) const {
+    return !takes_whole_source(lobe) && band_count(lobe, tolerance_) <= kQuickBands;
 }
 
 bool TargetRules::sums_evenly(const Lobe& lobe) const {

@@ -40,6 +40,8 @@ class TargetRules {
     [[nodiscard]] BandSplit dense_split(const Lobe& lobe, int most_bands) const;
     /// Is every texel of the source in the near part of this lobe?
     [[nodiscard]] bool takes_whole_source(const Lobe& lobe) const;
+    /// Does it take neither that nor many bands? Costs nothing to ask.
+    [[nodiscard]] bool is_quick(const Lobe& lobe) const;
     /// Do sums over the lobe hardly change from texel to texel?
     [[nodiscard]] bool sums_evenly(const Lobe& lobe) const;
     /// What sums over lobes may differ by and count as equal.
