@@ -234,6 +234,7 @@ FileContents read_picture(InputFile& file, const ReadOptions& options) {
             header.requested_pixel_types[i] = TINYEXR_PIXELTYPE_FLOAT;
 
     Pixels pixels;
+    pixels.num_channels = header.num_channels;  // else those of a failed load would not be freed
     checked(file, [&](const char** text) {
         return LoadEXRImageFromMemory(&pixels, &header, unsigned_bytes(bytes).data(), bytes.size(),
                                       text);
