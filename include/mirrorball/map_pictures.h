@@ -11,9 +11,12 @@ namespace mirrorball {
 /// lie side by side.
 [[nodiscard]] double map_picture_aspect(Projection projection);
 
-/// The map's level 0 made again in `projection` and `axes` and laid out in a picture about `height`
-/// pixels high. Four channels: radiance, and 1 where the map is, 0 beside its faces and beyond its
-/// rims. Costs as resample() does. \throws Error(Errc::usage) unless 4 <= height <= 4096
+/// The map made again in `projection` and `axes` and laid out in a picture about `height` pixels
+/// high. Four channels: radiance, and 1 where the map is, 0 beside its faces and beyond its rims.
+/// A pixel is looked up in the levels of the map whose texels have half its solid angle: without
+/// mip levels, what lies between pixels is passed over, and some of it where pixels are long
+/// strips. Quick enough for a picture that moves, at 100 to 200 ns a pixel and thread. \throws
+/// Error(Errc::usage) unless 4 <= height <= 4096
 [[nodiscard]] Image map_picture(const EnvironmentMap& map, Projection projection, const Axes& axes,
                                 int height);
 

@@ -47,6 +47,10 @@ struct ReflectionMapOptions {
                                              const Progress& progress = {});
 [[nodiscard]] PrefilterTarget glossy_target(const EnvironmentMap& environment, const Lobe& lobe,
                                             Projection projection, const Axes& axes);
+/// For a picture that the next one replaces: half as fine if faces would have more than 128 texels,
+/// which takes a quarter of the time. GGX of 0.12 and more in the studio and the sunset is off by
+/// 2.6 codes of 8 bits at most in cubes and octahedral maps, by 0.04 in the mean.
+[[nodiscard]] PrefilterTarget quicker(const PrefilterTarget& glossy);
 [[nodiscard]] PrefilterTarget diffuse_target(Projection projection, const Axes& axes);
 [[nodiscard]] std::vector<PrefilterTarget> rough_targets(const EnvironmentMap& environment,
                                                          Projection projection, const Axes& axes);

@@ -89,13 +89,15 @@ void SceneMaps::make_rough(const Progress& progress) {
     maps_.rough = uploaded(levels_of(levels), method_);
 }
 
-void SceneMaps::make_glossy(const Lobe& lobe, const Progress& progress) {
-    const EnvironmentMap map =
-        filtered(glossy_target(filter_->source(), lobe, projection_, axes_), progress);
+void SceneMaps::make_glossy(const Lobe& lobe, bool quick, const Progress& progress) {
+    const PrefilterTarget fine = glossy_target(filter_->source(), lobe, projection_, axes_);
+    // What is baked is there already.
+    const PrefilterTarget target = quick && !baked_ ? quicker(fine) : fine;
+    const EnvironmentMap map = filtered(target, progress);
     Texture texture = uploaded(map, method_);
     if (method_ == Method::cube_split) maps_.glossy_faces.push_back(upload_faces(map));
     maps_.glossy.push_back(std::move(texture));
-    lobes_.push_back({lobe, 0});
+    lobes_.push_back({lobe, target.size < fine.size, 0});
     if (warped_) warped_->add_glossy(maps_.glossy.back());
 }
 
@@ -110,7 +112,11 @@ void SceneMaps::set_lobes(std::span<const Lobe> lobes, bool quick, const Progres
     double begun = 0;
     const auto count = static_cast<double>(lobes.size());
     for (const Lobe& lobe : lobes) {
-        const std::size_t i = index_of(lobe);
+        std::size_t i = index_of(lobe);
+        if (!quick && i < lobes_.size() && lobes_[i].is_coarse) {
+            forget(i);
+            i = lobes_.size();
+        }
         const Progress of_lobe = part_of(progress, begun / count, (begun + 1) / count);
         ++begun;
         if (i == lobes_.size()) {
@@ -118,7 +124,7 @@ void SceneMaps::set_lobes(std::span<const Lobe> lobes, bool quick, const Progres
                 need_rough(of_lobe);
                 continue;
             }
-            make_glossy(lobe, of_lobe);
+            make_glossy(lobe, quick, of_lobe);
         }
         lobes_[i].used = turn_;
     }
@@ -140,13 +146,16 @@ void SceneMaps::forget_unused() {
         const auto oldest =
             std::min_element(lobes_.begin(), lobes_.end(),
                              [](const Kept& a, const Kept& b) { return a.used < b.used; });
-        const std::ptrdiff_t place = oldest - lobes_.begin();
-        lobes_.erase(oldest);
-        maps_.glossy.erase(maps_.glossy.begin() + place);
-        if (!maps_.glossy_faces.empty())
-            maps_.glossy_faces.erase(maps_.glossy_faces.begin() + place);
-        if (warped_) warped_->remove_glossy(static_cast<std::size_t>(place));
+        forget(static_cast<std::size_t>(oldest - lobes_.begin()));
     }
+}
+
+void SceneMaps::forget(std::size_t lobe) {
+    const auto place = static_cast<std::ptrdiff_t>(lobe);
+    lobes_.erase(lobes_.begin() + place);
+    maps_.glossy.erase(maps_.glossy.begin() + place);
+    if (!maps_.glossy_faces.empty()) maps_.glossy_faces.erase(maps_.glossy_faces.begin() + place);
+    if (warped_) warped_->remove_glossy(lobe);
 }
 
 std::uint64_t SceneMaps::unused_bytes() const {

@@ -29,8 +29,9 @@ class SceneMaps {
               std::shared_ptr<const BakedMaps> baked = nullptr, const Progress& progress = {});
 
     /// Makes maps for the lobes that have none. Those of other lobes stay, up to some memory, for a
-    /// scene may come back to them; a lobe's map is the same whenever it is made. `quick`: maps of
-    /// every roughness, which are made once, stand in for what would take long.
+    /// scene may come back to them; a lobe's map is the same whenever it is made. `quick`: large
+    /// maps are half as fine until they are asked for without it, and maps of every roughness,
+    /// which are made once, stand in for what would take long.
     void set_lobes(std::span<const Lobe> lobes, bool quick = false, const Progress& progress = {});
 
     /// Re-makes maps that depend on where the camera looks in an environment that is turned so.
@@ -52,6 +53,7 @@ class SceneMaps {
 
     struct Kept {
         Lobe lobe;
+        bool is_coarse;      // made for a quick picture
         std::uint64_t used;  // the last turn in which it was
     };
 
@@ -60,8 +62,9 @@ class SceneMaps {
     void make_rough(const Progress& progress);
     void need_rough(const Progress& progress);
     [[nodiscard]] bool takes_long(const Lobe& lobe) const;
-    void make_glossy(const Lobe& lobe, const Progress& progress);
+    void make_glossy(const Lobe& lobe, bool quick, const Progress& progress);
     void forget_unused();
+    void forget(std::size_t lobe);
     [[nodiscard]] std::uint64_t unused_bytes() const;
     [[nodiscard]] std::size_t index_of(const Lobe& lobe) const;
 

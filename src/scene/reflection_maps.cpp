@@ -17,6 +17,8 @@ constexpr double kTexelsPerWidth = 16;
 constexpr int kLeastFace = 16, kMostFace = 1024;
 // A cosine is wide, but it ends in a kink at the horizon, which blurs over a texel.
 constexpr int kDiffuseFace = 64;
+// Up to this size a map is made and uploaded in a moment.
+constexpr int kQuickFace = 128;
 
 // The last level of rough maps, of alpha 1. With texels half as wide, lookups are off by a quarter
 // as much at the levels, and by as much between them, where most of the error is.
@@ -90,6 +92,12 @@ PrefilterTarget glossy_target(const EnvironmentMap& environment, const Lobe& lob
     const int finest = std::max(kDiffuseFace * size_over_cube(projection),
                                 mirror_map_size(environment, projection));
     return {lobe, projection, std::min(glossy_map_size(lobe, projection), finest), axes};
+}
+
+PrefilterTarget quicker(const PrefilterTarget& glossy) {
+    PrefilterTarget result = glossy;
+    if (glossy.size > kQuickFace * size_over_cube(glossy.projection)) result.size /= 2;
+    return result;
 }
 
 PrefilterTarget diffuse_target(Projection projection, const Axes& axes) {

@@ -1,12 +1,15 @@
 #include <mirrorball/map_pictures.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
 
 #include <mirrorball/error.h>
-#include <mirrorball/resample.h>
+#include <mirrorball/lookup.h>
 
+#include "core/parallel.h"
 #include "io/layout.h"
 
 namespace mirrorball {
@@ -29,20 +32,35 @@ Arrangement arrangement_of(Projection projection) {
     }
 }
 
-// The face with 1 in a fourth channel where the projection uses it.
-Image with_coverage(const Image& face, Projection projection) {
-    Image result(face.width(), face.height(), 4);
-    visit(projection, [&](auto map) {
-        using Map = decltype(map);
-        for (int y = 0; y < face.height(); ++y) {
-            for (int x = 0; x < face.width(); ++x) {
-                const FacePoint<double> centre{0, (x + 0.5) / face.width(),
-                                               (y + 0.5) / face.height()};
-                if (!Map::covers(centre)) continue;
-                std::copy_n(face.at(x, y), 3, result.at(x, y));
+// Solid angle of the texels that are looked up over that of the pixel. With 1 pictures are softer
+// than they need be.
+constexpr double kTexelOverPixel = 0.5;
+
+double mean_solid_angle(const EnvironmentMap& map) {
+    const double texels = static_cast<double>(map.width()) * map.height();
+    return 4 * kPi / (face_count(map.projection) * texels);
+}
+
+// A face with 1 in a fourth channel where the projection uses it, each pixel looked up in the
+// levels whose texels are so large next to it.
+Image looked_up(const EnvironmentMap& map, Projection projection, const Axes& axes, int face,
+                int width, int height) {
+    Image result(width, height, 4);
+    const double texels_per_area = kTexelOverPixel / (mean_solid_angle(map) * width * height);
+    visit(projection, [&](auto target) {
+        using Map = decltype(target);
+        detail::parallel_for(height, [&](std::int64_t row) {
+            const int y = static_cast<int>(row);
+            for (int x = 0; x < width; ++x) {
+                const FacePoint<double> p{face, (x + 0.5) / width, (y + 0.5) / height};
+                if (!Map::covers(p)) continue;
+                const Vec3f light =
+                    look_up_at_lod(map, axes.to_world(Map::direction(p)),
+                                   std::log2(Map::density(p) * texels_per_area) / 2);
+                std::copy_n(&light.x, 3, result.at(x, y));
                 result.at(x, y)[3] = 1;
             }
-        }
+        });
     });
     return result;
 }
@@ -64,12 +82,11 @@ Image map_picture(const EnvironmentMap& map, Projection projection, const Axes& 
     const Arrangement arrangement = arrangement_of(projection);
     const int face_height = std::max(1, height / arrangement.rows);
     const int face_width = face_height * aspect(projection);
-    const EnvironmentMap laid_out = resample(map, projection, face_width, axes);
     Image picture(arrangement.columns * face_width, arrangement.rows * face_height, 4);
     for (int face = 0; face < face_count(projection); ++face) {
-        const Image covered = with_coverage(laid_out.levels[0].faces[face], projection);
-        if (arrangement.layout == Layout::single) return covered;
-        detail::paste_face(picture, covered, arrangement, face);
+        const Image laid_out = looked_up(map, projection, axes, face, face_width, face_height);
+        if (arrangement.layout == Layout::single) return laid_out;
+        detail::paste_face(picture, laid_out, arrangement, face);
     }
     return picture;
 }

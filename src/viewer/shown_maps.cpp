@@ -5,7 +5,6 @@
 
 #include <mirrorball/prefilter.h>
 #include <mirrorball/reflection_maps.h>
-#include <mirrorball/resample.h>
 #include <mirrorball/tone_map.h>
 
 #include "io/codec.h"
@@ -13,8 +12,8 @@
 namespace mirrorball {
 namespace {
 
-// Widths of panoramas.
-constexpr int kSmallWidth = 512, kBlurredWidth = 128;
+// Of cubes, whose texels are alike.
+constexpr int kSmallFace = 128, kBlurredFace = 32;
 
 std::uint8_t code(float linear) {
     return static_cast<std::uint8_t>(std::lround(detail::linear_to_srgb(linear) * 255));
@@ -37,16 +36,16 @@ ScreenPicture on_screen(const Image& light, double exposure, ToneMap tone_map) {
 }  // namespace
 
 void ShownMaps::set_environment(const EnvironmentMap& environment) {
-    const int width = std::min(kSmallWidth, mirror_map_size(environment, Projection::equirect));
+    const int face = std::min(kSmallFace, mirror_map_size(environment, Projection::cube));
     small_ = std::make_shared<const EnvironmentMap>(
-        resample(environment, Projection::equirect, width, environment.axes));
+        make_mirror_map(environment, Projection::cube, face, environment.axes));
     filter_.emplace(small_);
     diffuse_.reset(), glossy_.reset();
     kept_.clear();
 }
 
 EnvironmentMap ShownMaps::blurred(const Lobe& lobe) {
-    return (*filter_)({lobe, Projection::equirect, kBlurredWidth, small_->axes});
+    return (*filter_)({lobe, Projection::cube, kBlurredFace, small_->axes});
 }
 
 const EnvironmentMap& ShownMaps::map(MapContent content, const Lobe& lobe) {

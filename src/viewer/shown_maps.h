@@ -36,7 +36,7 @@ class ShownMaps {
         Look look;
         ScreenPicture picture;
     };
-    // A small panorama: pictures of a few hundred pixels show no more.
+    // A small cube with mip levels: pictures of a few hundred pixels show no more.
     std::shared_ptr<const EnvironmentMap> small_;
     std::optional<LobeFilter> filter_;
     std::optional<EnvironmentMap> diffuse_;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gl/target.h"
 #include "gl_test.h"
 
 namespace mirrorball::gl {
@@ -58,6 +59,34 @@ TEST_F(KeptMapsTest, NorOnOtherMethods) {
     for (std::size_t i = first.size(); i-- > 0;) {
         const Scene scene = glossy_scene(0.4, all_methods()[i]);
         EXPECT_TRUE(same_bits(seen(renderer, scene), first[i])) << name(scene.method);
+    }
+}
+
+// On a screen, linear light.
+Image drawn(Renderer& renderer, const Scene& scene, bool quick) {
+    const Target target(48, 32);
+    target.bind();
+    renderer.draw(scene, target.width(), target.height(), {.quick = quick});
+    return target.read(3);
+}
+
+// Large maps are half as fine in pictures that the next one replaces, and in no other.
+TEST_F(KeptMapsTest, QuickPicturesLeaveNoCoarseMaps) {
+    const auto assets = assets_in(builtin_environment("studio", 1024));
+    for (const Method method :
+         {Method::cube, Method::sphere, Method::cube_split, Method::octahedral}) {
+        const Scene scene = glossy_scene(0.2, method);
+        Renderer fresh(assets), renderer(assets);
+        const Image exact = drawn(fresh, scene, false);
+        const Image quick = drawn(renderer, scene, true);
+        EXPECT_FALSE(same_bits(quick, exact)) << name(method);
+        EXPECT_LT(mean_difference(quick, exact), 0.5 / 255) << name(method);
+        EXPECT_TRUE(same_bits(drawn(renderer, scene, true), quick)) << name(method);
+        EXPECT_TRUE(same_bits(drawn(renderer, scene, false), exact)) << name(method);
+        EXPECT_TRUE(same_bits(drawn(renderer, scene, true), exact)) << "it is there";
+        EXPECT_TRUE(same_bits(drawn(renderer, glossy_scene(0.3, method), true),
+                              drawn(fresh, glossy_scene(0.3, method), false)))
+            << "it was not large";
     }
 }
 

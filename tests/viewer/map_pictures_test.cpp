@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <mirrorball/error.h>
 #include <mirrorball/lookup.h>
+#include <mirrorball/resample.h>
 
 #include "synthetic.h"
 
@@ -76,6 +77,32 @@ TEST(MapPicture, IsTransparentWhereThereIsNoMap) {
     for (const Projection disc :
          {Projection::sphere, Projection::dual_paraboloid, Projection::angular})
         EXPECT_NEAR(share(disc), kPi / 4, 0.005) << name(disc);
+}
+
+// What is far smaller than a pixel is shown as its mean, unless pixels are long strips, as at a
+// panorama's poles and the rim of an angular map.
+TEST(MapPicture, PassesNothingOver) {
+    EnvironmentMap stripes = make_environment_map(Projection::cube, 128);
+    for (Image& face : stripes.levels[0].faces) {
+        for (int y = 0; y < face.height(); ++y)
+            for (int x = 0; x < face.width(); ++x)
+                face.set_rgb(x, y, Vec3f((x + y) % 2 == 0 ? 0 : 2));
+    }
+    append_mip_levels(stripes);
+    for (const Projection projection :
+         {Projection::cube, Projection::sphere, Projection::dual_paraboloid, Projection::octahedral,
+          Projection::equal_area_octahedral}) {
+        const Image picture = map_picture(stripes, projection, rotated({}, 0.4, 0.2, 0.1), 48);
+        int seen = 0;
+        for (int y = 0; y < picture.height(); ++y) {
+            for (int x = 0; x < picture.width(); ++x) {
+                if (picture.at(x, y)[3] == 0) continue;
+                ++seen;
+                EXPECT_NEAR(picture.rgb(x, y).x, 1, 0.05) << name(projection) << x << ", " << y;
+            }
+        }
+        EXPECT_GT(seen, 48 * 16);
+    }
 }
 
 // The survey's own example, in the cube's own frame: r = (0.2, 0.4, 0.3) is on +Y at (0.75, 0.875),

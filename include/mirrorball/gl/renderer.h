@@ -31,9 +31,10 @@ struct PictureOptions {
 struct DrawOptions {
     Imath::V2d shift{0, 0};  ///< in pixels, of what they show: as sample_shift() has it
     bool encoded = false;    ///< as sRGB, for a screen; else linear light
-    /// For pictures that the next one replaces at once: GGX whose map takes more than a moment to
-    /// make (LobeFilter::is_quick()) and is not there is looked up in maps of all roughnesses, off
-    /// by what look_up_rough() says. Of methods that look up per pixel; others do as always.
+    /// For pictures that the next one replaces at once: lobes' maps that are not there are made
+    /// half as fine if they are large (quicker()). GGX whose map takes more than a moment to make
+    /// (LobeFilter::is_quick()) is looked up in maps of all roughnesses, off by what
+    /// look_up_rough() says, of methods that look up per pixel; others do as always.
     bool quick = false;
     /// Where in the framebuffer the picture's lower left pixel is. Nothing around it is touched.
     int left = 0, bottom = 0;
