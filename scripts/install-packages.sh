@@ -42,6 +42,7 @@ test    libgtest-dev           the tests
 test    xvfb                   a screen that no one sees, for tests of the window
 test    xauth                  xvfb-run needs it
 test    xdotool                a mouse and keys on that screen
+test    libtinyexr-dev         the page's OpenEXR reader, tested beside the usual one
 bench   libbenchmark-dev       the benchmarks
 fuzz    clang                  libFuzzer comes with it
 fuzz    libclang-rt-14-dev     the sanitizers' and libFuzzer's run-time libraries

@@ -1,9 +1,8 @@
 // OpenEXR files read by tinyexr, which is one header: for builds that have not OpenEXR's library.
 //
 // Of what exr.cpp reads this takes all that tinyexr decodes: pictures that are uncompressed or
-// packed by RLE, ZIP or PIZ, in scanlines or tiles, with mip levels or without, of any layer. Its
-// functions for files of several parts trust their tables; so one part is cut out beforehand
-// (exr_parts.h).
+// packed by RLE, ZIP or PIZ, in scanlines or tiles, with mip levels or without, of any layer. It
+// trusts headers and tables; so it is given a file that was checked beforehand (exr_parts.h).
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -121,27 +120,12 @@ void parse_header(const InputFile& file, std::span<const unsigned char> bytes, H
     });
 }
 
-void check_header(InputFile& file, const Header& header, const ReadOptions& options) {
-    for (int i = 0; i < header.num_channels; ++i) {
-        const EXRChannelInfo& channel = header.channels[i];
-        if (channel.x_sampling != 1 || channel.y_sampling != 1)
-            file.fail(sub_sampled(channel.name, channel.x_sampling, channel.y_sampling));
-    }
-    if (header.tiled && header.tile_level_mode == TINYEXR_TILE_RIPMAP_LEVELS)
-        file.fail(kRipmapLevels);
+void check_size(InputFile& file, const Header& header, const ReadOptions& options) {
     const bool has_levels = header.tiled && header.tile_level_mode == TINYEXR_TILE_MIPMAP_LEVELS;
     // Everything is decoded to floats at once, and then made into the picture.
     file.seek(0);
     check_claim(file, header.width(), header.height(), 4,
                 (header.num_channels + 3) / 4 + (has_levels ? 2 : 1), 0, options);
-    if (!header.tiled) return;
-    // Each tile is set aside whole, be the picture as small as it may.
-    const double texels = double(header.tile_size_x) * header.tile_size_y;
-    const double pixels = double(header.width()) * double(header.height());
-    if (header.tile_size_x < 1 || header.tile_size_y < 1 ||
-        texels > std::max(4 * pixels, double(1 << 22)))
-        file.fail(tiles_too_large(header.tile_size_x, header.tile_size_y, header.width(),
-                                  header.height()));
 }
 
 // Floats, or whole numbers, which the parser leaves as they are.
@@ -212,18 +196,17 @@ std::span<const unsigned char> unsigned_bytes(std::span<const std::byte> bytes) 
 
 FileContents read_picture(InputFile& file, const ReadOptions& options) {
     file.seek(0);
-    std::span<const std::byte> bytes = file.look_ahead(file.size());
-    const ExrParts parts = parse_exr_headers(file, bytes);
+    const std::span<const std::byte> all = file.look_ahead(file.size());
+    const ExrParts parts = parse_exr_headers(file, all);
     FileContents contents;
     const Choice choice = choose_picture(file, parts, contents.notes);
     const ExrPart& part = parts.parts[choice.part];
     check_compression(file, part);
-    std::vector<std::byte> alone;
-    if (parts.is_multipart) bytes = alone = single_part(file, bytes, parts, choice.part);
+    const std::vector<std::byte> bytes = checked_part(file, all, parts, choice.part);
 
     Header header;
     parse_header(file, unsigned_bytes(bytes), header);
-    check_header(file, header, options);
+    check_size(file, header, options);
     const ExrPictureWords words = read_attributes(header, part, contents);
     const bool is_half =
         std::all_of(choice.channels.begin(), choice.channels.end(),

@@ -1,5 +1,5 @@
-// OpenEXR files as far as their headers go, and one part of them as a file of its own: for a
-// library that reads files of one part.
+// OpenEXR files as far as their headers and tables go, and one part of them as a sound file of its
+// own: for a library that trusts what it reads.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,6 @@ struct ExrPart {
         std::string name, type;
         std::span<const std::byte> value;
     };
-    std::span<const std::byte> header;  ///< with the zero that ends it
     std::vector<Attribute> attributes;
     std::vector<std::string> channels;
     bool is_deep = false, is_tiled = false;
@@ -32,15 +31,18 @@ struct ExrPart {
 struct ExrParts {
     std::vector<ExrPart> parts;
     std::size_t headers_end = 0;  ///< where the tables of offsets begin
-    bool is_multipart = false, has_long_names = false;
+    bool is_multipart = false;
 };
 
 /// \throws Error(Errc::cannot_read) where the bytes are no headers of an OpenEXR file
 [[nodiscard]] ExrParts parse_exr_headers(const InputFile& file, std::span<const std::byte> bytes);
 
-/// The file that would hold that part alone. \pre the file has several, and this one is flat
-[[nodiscard]] std::vector<std::byte> single_part(const InputFile& file,
-                                                 std::span<const std::byte> bytes,
-                                                 const ExrParts& parts, std::size_t part);
+/// The file that would hold that part alone, with nothing in its header that its pixels do not need
+/// and its lines in increasing order. Each chunk is there, is the one that stands at its place, and
+/// has a size that it can have; what its bytes hold is not looked at. \pre the part is flat
+/// \throws Error(Errc::cannot_read) for what is not so, sub-sampled channels and ripmaps
+[[nodiscard]] std::vector<std::byte> checked_part(const InputFile& file,
+                                                  std::span<const std::byte> bytes,
+                                                  const ExrParts& parts, std::size_t part);
 
 }  // namespace mirrorball::detail

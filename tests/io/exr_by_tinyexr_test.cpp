@@ -3,6 +3,7 @@
 
 #include "container_support.h"
 #include "exr_support.h"
+#include "fuzz/decode.h"
 
 namespace mirrorball {
 namespace detail {
@@ -37,6 +38,19 @@ TEST(ExrByTinyexr, CompressionsThatLoseNothing) {
                 header.compression() = compression;
                 if (is_tiled) header.setTileDescription(Imf::TileDescription(8, 16));
             }));
+}
+
+// Lines are where their chunks say, in whatever order these were written.
+TEST(ExrByTinyexr, LinesInAnyOrder) {
+    const Image image = exact_image(19, 40, 3, 0, 0);
+    for (const Imf::LineOrder order : {Imf::DECREASING_Y, Imf::RANDOM_Y})
+        for (const bool is_tiled : {false, true}) {
+            if (order == Imf::RANDOM_Y && !is_tiled) continue;
+            expect_read_alike(made(image, kRgb, [&](Imf::Header& header) {
+                header.lineOrder() = order;
+                if (is_tiled) header.setTileDescription(Imf::TileDescription(8, 16));
+            }));
+        }
 }
 
 TEST(ExrByTinyexr, LuminanceLayersAndWholeNumbers) {
@@ -124,6 +138,27 @@ TEST(ExrByTinyexr, EveryTruncationIsRefused) {
     expect_truncations_refused(kExrByTinyexr,
                                made_parts({{exact_image(3, 2, 1, 0, 0), {"Z"}},
                                            {exact_image(3, 2, 3, 0, 0), {"R", "G", "B"}}}));
+}
+
+// The fuzzer's seeds, whole and with each byte in turn made another: refused or read, within
+// bounds.
+TEST(ExrByTinyexr, NoDamageLeadsBeyondTheBytes) {
+    int count = 0;
+    const std::filesystem::path folder =
+        std::filesystem::path(MIRRORBALL_SOURCE_DIR) / "tests/fuzz/seeds/exr";
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const Bytes bytes = file_bytes(entry.path());
+        EXPECT_FALSE(detail::decode_or_refuse(kExrByTinyexr, bytes)) << entry.path();
+        for (std::size_t i = 0; i < bytes.size(); ++i) {
+            Bytes damaged = bytes;
+            for (const int value : {0x00, 0x7f, 0xff}) {
+                damaged[i] = std::byte(value);
+                detail::decode_or_refuse(kExrByTinyexr, damaged);
+            }
+        }
+        ++count;
+    }
+    EXPECT_GE(count, 16);
 }
 
 }  // namespace

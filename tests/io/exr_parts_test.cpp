@@ -14,7 +14,7 @@ using detail::kExr;
 
 Bytes cut(const Bytes& bytes, std::size_t part) {
     const detail::InputFile file("bytes", bytes);
-    return single_part(file, bytes, detail::parse_exr_headers(file, bytes), part);
+    return checked_part(file, bytes, detail::parse_exr_headers(file, bytes), part);
 }
 
 std::vector<MadePart> three_parts() {
@@ -41,7 +41,7 @@ TEST(ExrParts, AloneTheyHoldWhatTheyDidTogether) {
     for (std::size_t i = 1; i < parts.size(); ++i) {
         const FileContents alone = read_back(kExr, cut(bytes, i));
         EXPECT_TRUE(alone.notes.empty());
-        EXPECT_EQ(alone.metadata.at("about"), fmt::format("part {}", i + 1));
+        EXPECT_TRUE(alone.metadata.empty()) << "the header of the whole has it";
         ASSERT_EQ(alone.levels.size(), parts[i].has_levels ? 4u : 1u);
         FileContents first = plain(alone.levels[0][0]);
         expect_same_bits(first, plain(parts[i].image));
@@ -64,7 +64,7 @@ TEST(ExrParts, NoDamageLeadsBeyondTheBytes) {
                 const detail::ExrParts parts = detail::parse_exr_headers(file, damaged);
                 if (!parts.is_multipart || parts.parts.size() != 2 || parts.parts[1].is_deep)
                     continue;
-                EXPECT_LE(single_part(file, damaged, parts, 1).size(), 2 * damaged.size());
+                EXPECT_LE(checked_part(file, damaged, parts, 1).size(), 2 * damaged.size());
             } catch (const Error& error) {
                 EXPECT_EQ(error.code(), Errc::cannot_read);
             }
