@@ -48,7 +48,9 @@ struct Hover {
     std::optional<std::size_t> object;  ///< its place in the scene; none: the background
     /// Of the world; the normal is unit, on the eye's side, as bumps of the form `normals` have it.
     Vec3d position{0}, normal{0};
-    Vec3d reflected{0, 0, -1};  ///< what the map is asked for; of the background, where one looks
+    /// What the map is asked for, bumps of the classic form included; of the background, where one
+    /// looks.
+    Vec3d reflected{0, 0, -1};
     std::optional<Vec3d> refracted;  ///< of glass, where light gets through
 };
 
@@ -181,10 +183,11 @@ class Viewer {
     /// Of the pixel in column x and row y from the top left.
     [[nodiscard]] Hover hover(double x, double y, int width, int height) const;
 
-    /// The axes in which a map of this projection is shown here: the default ones, but a sphere
-    /// map's are the camera's where the method makes it for the camera.
-    [[nodiscard]] Axes axes_of_map(Projection projection) const;
-    /// A small picture of a map, tone mapped as the scene is; transparent where there is no map.
+    /// Where a direction is looked up in a map of this projection. Sphere maps are looked up in the
+    /// camera's axes, the stale one, too.
+    [[nodiscard]] MapPlace place_on_map(Projection projection, const Vec3d& direction) const;
+    /// A small picture of a map as the method has it, the sphere map for the camera unless it is
+    /// stale; tone mapped as the scene is, transparent where there is no map.
     /// Kept until it changes: cheap to ask for again.
     [[nodiscard]] const ScreenPicture& map_picture(MapContent content, Projection projection,
                                                    int height);

@@ -64,6 +64,18 @@ double BumpLookup::height(const Imath::V2d& place) const {
     return look_up_picture(texels_->heights, place, bump_.wrap).x;
 }
 
+FacePoint<double> moved_place(const Axes& axes, const Vec3d& direction, const Imath::V2d& shift) {
+    FacePoint<double> place = SphereMap::project(axes.to_map(direction));
+    place.s += shift.x, place.t += shift.y;
+    const Imath::V2d from_centre(place.s - 0.5, place.t - 0.5);
+    const double beyond = 2 * from_centre.length();
+    if (beyond > 1) {
+        place.s = 0.5 + from_centre.x / beyond;
+        place.t = 0.5 + from_centre.y / beyond;
+    }
+    return place;
+}
+
 double above_horizon(const Vec3d& r, const Vec3d& n) {
     const double share = std::clamp(1 + n.dot(r), 0.0, 1.0);
     return share * share;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include <mirrorball/projection.h>
 #include <mirrorball/scene.h>
 #include <mirrorball/scene_assets.h>
 
@@ -36,6 +37,11 @@ class BumpLookup {
     Imath::V2d offset_;
     Imath::M22d matrix_;
 };
+
+/// Of the classic form: where a sphere map with these axes is looked up for a direction of the
+/// world. Beyond the rim there is the rim.
+[[nodiscard]] FacePoint<double> moved_place(const Axes& axes, const Vec3d& direction,
+                                            const Imath::V2d& shift);
 
 /// The share of a reflection that a surface's own relief lets pass: 1 above the horizon of the
 /// smooth surface, whose normal is `n`, and (1 + n.r)^2 below it.

@@ -296,20 +296,8 @@ class DirectShading::Impl {
     // The direction that a sphere map shows beside another; all beyond its rim is one.
     static Vec3d shifted(const EnvironmentMap& map, const Vec3d& direction,
                          const Imath::V2d& shift) {
-        return map.axes.to_world(SphereMap::direction(on_sphere_map(map.axes, direction, shift)));
-    }
-
-    static FacePoint<double> on_sphere_map(const Axes& axes, const Vec3d& direction,
-                                           const Imath::V2d& shift) {
-        FacePoint<double> place = SphereMap::project(axes.to_map(direction));
-        place.s += shift.x, place.t += shift.y;
-        const Imath::V2d from_centre(place.s - 0.5, place.t - 0.5);
-        const double beyond = 2 * from_centre.length();
-        if (beyond > 1) {
-            place.s = 0.5 + from_centre.x / beyond;
-            place.t = 0.5 + from_centre.y / beyond;
-        }
-        return place;
+        return map.axes.to_world(
+            SphereMap::direction(detail::moved_place(map.axes, direction, shift)));
     }
 
     [[nodiscard]] Vec3d layer_light(const Material& material, const Surface& surface,
@@ -367,7 +355,7 @@ class DirectShading::Impl {
             return light_of_lights(material, surface, base_color, position, view.n, view.v,
                                    weights);
         const Axes& axes = maps_.mirror.axes;
-        const FacePoint<double> place = on_sphere_map(axes, view.r, *view.shift);
+        const FacePoint<double> place = detail::moved_place(axes, view.r, *view.shift);
         const double x = 2 * place.s - 1, y = 1 - 2 * place.t;
         const double z = std::sqrt(std::max(0.0, 1 - x * x - y * y));
         return light_of_lights(material, surface, base_color, surface.centre,

@@ -51,27 +51,43 @@ V interpolated(const std::vector<V>& values, const Mesh& mesh, const Hit& hit) {
     return corner(0) * (1 - u - v) + corner(1) * u + corner(2) * v;
 }
 
-// The world's normal where bumps have turned it, as shaders/bump.glsl and direct.cpp do.
-Vec3d bumped_normal(const Vec3d& normal, const SceneObject& object, const SceneAssets& assets,
-                    const Hit& hit, const Vec3d& v, double time) {
+// The world's normal where bumps of the form `normals` have turned it, and by how much those of the
+// classic form move places on sphere maps: as shaders/bump.glsl and direct.cpp do.
+struct Bumped {
+    Vec3d normal;
+    Imath::V2d shift{0, 0};
+};
+
+Bumped bumped(const Vec3d& normal, const SceneObject& object, const SceneAssets& assets,
+              const Hit& hit, const Vec3d& v, double time) {
     const BumpMap& map = object.material.bump;
     const Mesh& mesh = assets.meshes.at(object.mesh);
-    if (map.is_smooth() || map.form != BumpForm::normals || mesh.tangents.empty()) return normal;
+    if (map.is_smooth() || mesh.texture_coordinates.empty()) return {normal};
     const detail::BumpLookup bump(map, assets, time);
+    const Vec2f at = interpolated(mesh.texture_coordinates, mesh, hit);
+    Imath::V2d place = bump.place(Imath::V2d(at.x, at.y));
+    if (map.form == BumpForm::classic) return {normal, bump.shift(bump.slopes(place))};
+
+    if (mesh.tangents.empty()) return {normal};
     const Imath::M44d to_world = matrix(object.transform);
     const Vec4f stored = interpolated(mesh.tangents, mesh, hit);
     Vec3d tangent;
     to_world.multDirMatrix(Vec3d(stored.x, stored.y, stored.z), tangent);
-    if (tangent == Vec3d(0)) return normal;
+    if (tangent == Vec3d(0)) return {normal};
     tangent.normalize();
     const double handedness = std::copysign(1, stored.w) * std::copysign(1, to_world.determinant());
     const Vec3d bitangent = normal.cross(tangent) * handedness;
-    const Vec2f at = interpolated(mesh.texture_coordinates, mesh, hit);
-    Imath::V2d place = bump.place(Imath::V2d(at.x, at.y));
     if (map.relief > 0 && normal.dot(v) > 0)
         place = bump.seen_in_relief(place, {v.dot(tangent), v.dot(bitangent), v.dot(normal)});
     const Imath::V2d slopes = bump.slopes(place);
-    return (normal - tangent * slopes.x - bitangent * slopes.y).normalized();
+    return {(normal - tangent * slopes.x - bitangent * slopes.y).normalized()};
+}
+
+// What a sphere map, which is the camera's, shows where a direction's place has been moved to.
+Vec3d moved(const Camera& camera, const Vec3d& direction, const Imath::V2d& shift) {
+    if (shift == Imath::V2d(0, 0)) return direction;
+    const Axes map = axes(camera);
+    return map.to_world(SphereMap::direction(detail::moved_place(map, direction, shift)));
 }
 
 // The ray as the object's mesh has it.
@@ -89,29 +105,33 @@ Hover hover_at(const Scene& scene, const SceneAssets& assets, double x, double y
     const Ray ray{scene.camera.eye, view_ray(scene.camera, x, y, aspect)};
     Hover hover;
     hover.reflected = seen_from_capture(scene.environment, ray.origin, ray.direction);
-    double nearest = std::numeric_limits<double>::infinity();
+    Hit hit;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];
-        const Mesh& mesh = assets.meshes.at(object.mesh);
-        const Hit hit = nearest_hit(mesh, to_mesh(ray, object.transform));
-        if (hit.distance >= nearest) continue;
-        nearest = hit.distance;
+        const Hit of_object =
+            nearest_hit(assets.meshes.at(object.mesh), to_mesh(ray, object.transform));
+        if (of_object.distance >= hit.distance) continue;
+        hit = of_object;
         hover.object = i;
-        hover.position = ray.origin + ray.direction * hit.distance;
-        const Vec3d smooth = object.transform.normal(Vec3d(interpolated(mesh.normals, mesh, hit)));
-        hover.normal = bumped_normal(smooth, object, assets, hit, -ray.direction, scene.time);
     }
     if (!hover.object) return hover;
 
+    const SceneObject& object = scene.objects[*hover.object];
+    const Mesh& mesh = assets.meshes.at(object.mesh);
     const Vec3d v = -ray.direction;
+    const Vec3d smooth = object.transform.normal(Vec3d(interpolated(mesh.normals, mesh, hit)));
+    const Bumped bump = bumped(smooth, object, assets, hit, v, scene.time);
+    hover.position = ray.origin + ray.direction * hit.distance;
+    hover.normal = bump.normal;
     const bool behind = hover.normal.dot(v) < 0;
     if (behind) hover.normal = -hover.normal;
     const Vec3d& n = hover.normal;
     const auto looked_up = [&](const Vec3d& direction) {
-        return seen_from_capture(scene.environment, hover.position, direction);
+        return moved(scene.camera, seen_from_capture(scene.environment, hover.position, direction),
+                     bump.shift);
     };
     hover.reflected = looked_up(n * (2 * n.dot(v)) - v);
-    const Material& material = scene.objects[*hover.object].material;
+    const Material& material = object.material;
     if (material.transmission > 0) {
         const Vec3d t = refracted(v, n, behind ? 1 / material.index : material.index);
         if (t != Vec3d(0)) hover.refracted = looked_up(t);

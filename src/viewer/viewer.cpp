@@ -523,10 +523,10 @@ Hover Viewer::hover(double x, double y, int width, int height) const {
                     static_cast<double>(width) / height);
 }
 
-Axes Viewer::axes_of_map(Projection projection) const {
-    const bool for_camera =
-        projection == Projection::sphere && scene().method != Method::sphere_stale;
-    return for_camera ? axes(scene().camera) : default_axes(projection);
+MapPlace Viewer::place_on_map(Projection projection, const Vec3d& direction) const {
+    const Axes looked_up =
+        projection == Projection::sphere ? axes(scene().camera) : default_axes(projection);
+    return mirrorball::place_on_map(projection, looked_up, direction);
 }
 
 const ScreenPicture& Viewer::map_picture(MapContent content, Projection projection, int height) {
@@ -534,7 +534,9 @@ const ScreenPicture& Viewer::map_picture(MapContent content, Projection projecti
     look.environment = turned(assets().environment.axes, scene().environment);
     look.exposure = exposure() * scene().environment.intensity;
     look.tone_map = scene().tone_map;
-    look.axes = axes_of_map(projection);
+    const bool for_camera =
+        projection == Projection::sphere && scene().method != Method::sphere_stale;
+    look.axes = for_camera ? axes(scene().camera) : default_axes(projection);
     const std::vector<Lobe> lobes = lobes_of(scene());
     if (content == MapContent::glossy) {
         const bool selected_is_glossy =

@@ -248,8 +248,7 @@ class Page {
                 result["normal"] = vector(hover.normal);
             }
             for (const Projection projection : kShownProjections) {
-                const MapPlace place =
-                    place_on_map(projection, viewer_->axes_of_map(projection), hover.reflected);
+                const MapPlace place = viewer_->place_on_map(projection, hover.reflected);
                 result["places"][std::string(name(projection))] = {{"x", place.x},
                                                                    {"y", place.y},
                                                                    {"face", place.face},

@@ -95,8 +95,7 @@ void MapStrip::draw(Session& session, const Area& area) {
                       {left, under}, {left + width, under + height});
         if (session.hover) {
             const auto mark = [&](const Vec3d& direction, ImU32 color) {
-                const MapPlace place = place_on_map(
-                    map.projection, session.viewer.axes_of_map(map.projection), direction);
+                const MapPlace place = session.viewer.place_on_map(map.projection, direction);
                 marker(list,
                        {left + static_cast<float>(place.x) * width,
                         under + static_cast<float>(place.y) * height},

@@ -134,8 +134,7 @@ std::string vector_text(const Vec3d& v) {
 // Where a direction is looked up in the map that the method has.
 std::string looked_up(Session& session, const Vec3d& direction) {
     const Projection projection = projection_of(session.viewer.scene().method);
-    const MapPlace place =
-        place_on_map(projection, session.viewer.axes_of_map(projection), direction);
+    const MapPlace place = session.viewer.place_on_map(projection, direction);
     static constexpr const char* kCubeFaces[] = {"+X ", "-X ", "+Y ", "-Y ", "+Z ", "-Z "};
     static constexpr const char* kHalves[] = {"front ", "back "};
     const char* face = projection == Projection::cube              ? kCubeFaces[place.face]

@@ -334,6 +334,45 @@ TEST_F(ViewerTest, HoverSeesWhatThePixelSees) {
     }
 }
 
+// In light that changes slowly: what the picture has is what the sphere map shows at the marked
+// place, also of bumps that move places, and of a map that was made for another camera.
+TEST_F(ViewerTest, HoverMarksWhatSphereMapsShow) {
+    for (const Method method : {Method::sphere, Method::sphere_stale}) {
+        Scene scene = small_scene();
+        scene.method = method;
+        scene.map_size = 256;
+        BumpMap& bump = scene.objects[0].material.bump;
+        bump.source = "ripples", bump.size = 64, bump.repeat = {1, 1};
+        bump.form = BumpForm::classic, bump.filter = BumpFilter::none;
+        const Viewer viewer = make_viewer(scene);
+        auto assets = std::make_shared<SceneAssets>(viewer.assets());
+        assets->environment = gl::smooth_environment(512);
+        gl::Renderer renderer(assets);
+        const Image picture = gl::radiance(renderer, scene, kWidth, kHeight);
+        scene.objects[0].material.bump = {};
+        const Viewer smooth = make_viewer(scene);
+
+        const Axes shown = method == Method::sphere ? axes(scene.camera) : Axes{};
+        int on_object = 0, moved = 0, apart = 0;
+        for (int y = 0; y < kHeight; y += 3) {
+            for (int x = 0; x < kWidth; x += 3) {
+                const Hover hover = viewer.hover(x, y, kWidth, kHeight);
+                if (!hover.object || hover.normal.dot(axes(scene.camera).z) < 0.3) continue;
+                ++on_object;
+                const MapPlace place = viewer.place_on_map(Projection::sphere, hover.reflected);
+                const Vec3d there =
+                    shown.to_world(SphereMap::direction(FacePoint<double>{0, place.s, place.t}));
+                apart += (Vec3d(picture.rgb(x, y)) - smooth_light(there)).length() > 0.05;
+                const Hover without = smooth.hover(x, y, kWidth, kHeight);
+                moved += (hover.reflected - without.reflected).length() > 0.02;
+            }
+        }
+        EXPECT_GT(on_object, 100);
+        EXPECT_GT(moved, on_object / 2);
+        EXPECT_LE(apart, on_object / 50) << name(method);
+    }
+}
+
 TEST_F(ViewerTest, RubbishIsToldAndChangesNothing) {
     const TemporaryFolder folder;
     const auto write = [&](const std::string& name, const std::string& text) {
