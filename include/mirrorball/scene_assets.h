@@ -12,6 +12,7 @@
 #include <mirrorball/image.h>
 #include <mirrorball/io.h>
 #include <mirrorball/mesh.h>
+#include <mirrorball/progress.h>
 #include <mirrorball/scene.h>
 
 namespace mirrorball {
@@ -42,6 +43,7 @@ struct AssetOptions {
     std::uint64_t memory_limit = kUnlimitedMemory;  ///< bytes that all of them may hold
     int mesh_detail = 0;                            ///< of built-in meshes, as make_mesh() takes it
     int builtin_width = 0;  ///< of built-in environments, in texels; 0: as read_map() has them
+    Progress reading = {};  ///< of the environment, as MapReadOptions has it
 };
 
 /// A mesh's name is one of builtin_meshes(), or a file like all others: relative to `folder`, that

@@ -87,7 +87,7 @@ class Viewer {
         /// Of built-in environments, in texels; 0: the usual ones. They take seconds to draw, so
         /// who draws them elsewhere has coarse ones until drop_environment() brings the whole.
         int builtin_width = 0;
-        Progress reading = {};       ///< of a file that is dropped, as ReadOptions has it
+        Progress reading = {};       ///< of an environment, as MapReadOptions has it
         Progress prefiltering = {};  ///< of a picture's maps, where it needs new ones
     };
 

@@ -63,10 +63,14 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-Viewer make_viewer(const Options& options, const Shared& shared) {
+Viewer make_viewer(const Options& options, const Shared& shared, const Progress& reading,
+                   const Progress& prefiltering) {
     const SceneInput input = with_file(options.input, options.file);
     Viewer viewer(scene_of(input), folder_of(input),
-                  {.memory_limit = shared.memory_limit, .sample_count = options.samples});
+                  {.memory_limit = shared.memory_limit,
+                   .sample_count = options.samples,
+                   .reading = reading,
+                   .prefiltering = prefiltering});
     Scene scene = viewer.scene();
     place_camera_as_asked(scene, viewer.assets(), input);
     viewer.set_scene(scene);
@@ -88,8 +92,11 @@ int run(const Options& options, const Shared& shared) {
         window_options.script = window::parse_script(contents(options.script), options.script);
     window_options.stop = interrupted;
 
-    const window::Report report =
-        window::show([&] { return make_viewer(options, shared); }, window_options);
+    const window::Report report = window::show(
+        [&](const Progress& reading, const Progress& prefiltering) {
+            return make_viewer(options, shared, reading, prefiltering);
+        },
+        window_options);
     const double seconds = median(report.seconds);
     if (shared.json) {
         print_json({{"frames", report.seconds.size()},

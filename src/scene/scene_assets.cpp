@@ -227,6 +227,7 @@ LoadedMap load_environment(const SceneEnvironment& environment, const std::files
     }
     MapReadOptions read_options;
     read_options.memory_limit = options.memory_limit;
+    read_options.progress = options.reading;
     return read_map(environment_source(environment.source, folder), read_options);
 }
 

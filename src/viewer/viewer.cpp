@@ -141,7 +141,9 @@ class Viewer::Impl {
     };
 
     [[nodiscard]] AssetOptions asset_options() const {
-        return {.memory_limit = options_.memory_limit, .builtin_width = options_.builtin_width};
+        return {.memory_limit = options_.memory_limit,
+                .builtin_width = options_.builtin_width,
+                .reading = options_.reading};
     }
     void adopt(const Scene& scene, std::shared_ptr<const SceneAssets> assets);
     void take_environment(const LoadedMap& loaded);

@@ -24,6 +24,7 @@ std::string variable(const char* name) {
                             : fmt::format("{} is not set", name);
 }
 
+constexpr const char* kName = "mirrorball";
 constexpr const char* kAdvice =
     "\"mirrorball render\" draws pictures without a window, and xvfb-run gives programs a screen "
     "that no one sees";
@@ -36,7 +37,7 @@ GLFWwindow* open_window(int width, int height) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_DEPTH_BITS, 24);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    if (GLFWwindow* window = glfwCreateWindow(width, height, "mirrorball", nullptr, nullptr))
+    if (GLFWwindow* window = glfwCreateWindow(width, height, kName, nullptr, nullptr))
         return window;
     throw Error(Errc::unsupported,
                 fmt::format("no window with OpenGL can be opened; tried: OpenGL 4.5, core profile "
@@ -137,6 +138,11 @@ void Desktop::resize(int width, int height) {
 
 void Desktop::close() {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+void Desktop::set_title(const std::string& title) {
+    const std::string whole = title.empty() ? kName : fmt::format("{} - {}", title, kName);
+    glfwSetWindowTitle(window_, whole.c_str());
 }
 
 Desktop::Size Desktop::pixels() const {

@@ -29,6 +29,8 @@ class Desktop {
     void swap();
     void resize(int width, int height);
     void close();
+    /// In front of the program's name; none if empty.
+    void set_title(const std::string& title);
 
     struct Size {
         int width, height;

@@ -22,6 +22,7 @@
 #include "panel.h"
 #include "session.h"
 #include "theme.h"
+#include "work_bar.h"
 
 namespace mirrorball::window {
 namespace {
@@ -72,13 +73,18 @@ Image read_pixels(int left, int bottom, int width, int height) {
     return image;
 }
 
+bool is_scripted(const Options& options) {
+    return options.frames > 0;
+}
+
 class ViewWindow {
   public:
-    ViewWindow(const std::function<Viewer()>& make_viewer, const Options& options)
+    ViewWindow(const MakeViewer& make_viewer, const Options& options, Desktop& desktop)
         : options_(options),
-          desktop_(options.width, options.height, !is_scripted()),
-          interface_(desktop_.handle()),
-          viewer_(make_viewer()),
+          desktop_(desktop),
+          work_bar_(desktop, options.stop),
+          interface_(desktop.handle()),
+          viewer_(make_viewer(work_bar_.progress("Reading"), work_bar_.progress("Prefiltering"))),
           session_(viewer_) {
         session_.panel_open = options.panel;
     }
@@ -86,7 +92,7 @@ class ViewWindow {
     Report run();
 
   private:
-    [[nodiscard]] bool is_scripted() const { return options_.frames > 0; }
+    [[nodiscard]] bool is_scripted() const { return window::is_scripted(options_); }
     [[nodiscard]] bool is_done(int frame) const;
     void wait();
     void take_events();
@@ -105,7 +111,8 @@ class ViewWindow {
     void take_picture_asked();
 
     Options options_;
-    Desktop desktop_;
+    Desktop& desktop_;
+    WorkBar work_bar_;
     Interface interface_;
     Viewer viewer_;
     Session session_;
@@ -285,6 +292,7 @@ Report ViewWindow::run() {
         draw_frame();
         if (session_.screenshot_asked) take_picture_asked();
         desktop_.swap();
+        work_bar_.end();
         if (is_scripted()) glFinish();
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         report.seconds.push_back(seconds);
@@ -296,8 +304,15 @@ Report ViewWindow::run() {
 
 }  // namespace
 
-Report show(const std::function<Viewer()>& make_viewer, const Options& options) {
-    return ViewWindow(make_viewer, options).run();
+Report show(const MakeViewer& make_viewer, const Options& options) {
+    Desktop desktop(options.width, options.height, !is_scripted(options));
+    try {
+        return ViewWindow(make_viewer, options, desktop).run();
+    } catch (const Error& error) {
+        // Closed before there was anything to see.
+        if (error.code() == Errc::cancelled && desktop.is_closed()) return {};
+        throw;
+    }
 }
 
 }  // namespace mirrorball::window

@@ -28,10 +28,13 @@ struct Report {
     gl::Driver driver;
 };
 
+/// Gives `make_viewer` what its viewer is to tell its progress to: the window shows it.
+using MakeViewer = std::function<Viewer(const Progress& reading, const Progress& prefiltering)>;
+
 /// `make_viewer` is called with the window's context current. Returns when the window is closed, or
 /// all frames are drawn and the script is done. \throws Error(Errc::unsupported) naming what was
 /// tried where no window can be opened; Error(Errc::cannot_write) for the screenshot
-Report show(const std::function<Viewer()>& make_viewer, const Options& options);
+Report show(const MakeViewer& make_viewer, const Options& options);
 
 /// What keys do besides those of Viewer::keys().
 [[nodiscard]] std::vector<KeyHelp> window_keys();

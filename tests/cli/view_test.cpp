@@ -155,6 +155,27 @@ TEST_F(ViewVerb, ListensToTheKeyboard) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "mirrorball-1.png")) << outcome.err;
 }
 
+// The sharp lobe sums over the whole source, more than a second of a processor's time. The words
+// are in the window's title.
+TEST_F(ViewVerb, SaysHowFarLongWorkIsAndEndsIt) {
+    if (!is_installed("xdotool")) GTEST_SKIP() << "xdotool is not installed";
+    const std::string shell =
+        "'" MIRRORBALL_PROGRAM
+        "' view --width 320 --height 240 --env builtin:studio --material satin-gold "
+        "--lobe ggx:0.03 & window=$! ; seen=; "
+        "for i in $(seq 500); do "
+        "xdotool search --name '^Prefiltering: [0-9]+ %, [0-9]+ s left - mirrorball$' "
+        ">/dev/null 2>&1 && { seen=yes; break; }; kill -0 $window || break; sleep 0.02; done; "
+        "kill $window; wait $window; echo ${seen:-missed} $?";
+    // xvfb-run has a code of its own where it cannot clean up.
+    const Outcome outcome =
+        Program({"/usr/bin/xvfb-run", "-a", "-s", "-screen 0 640x480x24", "/bin/sh", "-c", shell})
+            .wait();
+    if (outcome.out.find("missed") != std::string::npos)
+        GTEST_SKIP() << "the work was done before it was seen";
+    EXPECT_EQ(outcome.out, "yes 130\n") << outcome.err;
+}
+
 TEST_F(ViewVerb, SaysWhatWasTriedWithoutADisplay) {
     const Outcome outcome =
         Program({"/usr/bin/env", "-u", "DISPLAY", MIRRORBALL_PROGRAM, "view"}).wait();
