@@ -286,8 +286,11 @@ Image make_image(const Box2i& window, const Picture& picture) {
                  static_cast<int>(picture.channels.size()));
 }
 
+// That each reader decodes until the progress is told.
+constexpr int kPiecesBetweenWords = 4;
+
 // The levels' data windows, as pictures.
-std::vector<Image> read_levels(const InputFile& file, Imf::MultiPartInputFile& exr,
+std::vector<Image> read_levels(InputFile& file, Imf::MultiPartInputFile& exr,
                                const Picture& picture) {
     const Imf::Header& header = exr.header(picture.part);
     if (!exr.partComplete(picture.part)) file.fail(kNeverWritten);
@@ -296,11 +299,17 @@ std::vector<Image> read_levels(const InputFile& file, Imf::MultiPartInputFile& e
         const Box2i window = header.dataWindow();
         Image& image = levels.emplace_back(make_image(window, picture));
         PartReaders readers(file, picture.part);
-        readers.for_each_range(0, image.height(), lines_per_chunk(header.compression()),
-                               [&](Imf::InputPart& part, int first, int last) {
-                                   part.setFrameBuffer(frame_buffer(image, picture, window));
-                                   part.readPixels(window.min.y + first, window.min.y + last - 1);
-                               });
+        const int piece = lines_per_chunk(header.compression());
+        const int step = kPiecesBetweenWords * PartReaders::kCount * piece;
+        for (int begin = 0; begin < image.height(); begin += step) {
+            const int count = std::min(step, image.height() - begin);
+            readers.for_each_range(
+                begin, count, piece, [&](Imf::InputPart& part, int first, int last) {
+                    part.setFrameBuffer(frame_buffer(image, picture, window));
+                    part.readPixels(window.min.y + first, window.min.y + last - 1);
+                });
+            file.tell(static_cast<double>(begin + count) / image.height());
+        }
         return levels;
     }
     Imf::TiledInputPart part(exr, picture.part);
@@ -310,6 +319,7 @@ std::vector<Image> read_levels(const InputFile& file, Imf::MultiPartInputFile& e
         Image& image = levels.emplace_back(make_image(window, picture));
         part.setFrameBuffer(frame_buffer(image, picture, window));
         part.readTiles(0, part.numXTiles(level) - 1, 0, part.numYTiles(level) - 1, level);
+        file.tell(1 - std::pow(0.25, level + 1));
     }
     return levels;
 }

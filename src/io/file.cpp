@@ -248,8 +248,10 @@ void InputFile::fill(std::size_t least) {
         fail(fmt::format("became shorter than {} bytes while it was read", size_));
     memory_ = std::span<const std::byte>(buffer_).first(static_cast<std::size_t>(count));
     memory_start_ = position_;
-    const double share =
-        static_cast<double>(position_ + memory_.size()) / static_cast<double>(size_);
+    tell(static_cast<double>(position_ + memory_.size()) / static_cast<double>(size_));
+}
+
+void InputFile::tell(double share) {
     told_ = std::clamp(share, told_, 1.0);
     if (progress_ && !progress_(told_)) throw Error(Errc::cancelled, "cancelled");
 }

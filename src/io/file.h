@@ -36,6 +36,9 @@ class InputFile {
     void read(std::span<std::byte> out);
     /// From now on, `progress` is told the share of the file that has been read.
     void report_to(Progress progress) { progress_ = std::move(progress); }
+    /// For decoders that read otherwise than through this. A smaller share than before is passed
+    /// over. \throws Error(Errc::cancelled) if that was asked for
+    void tell(double share);
     /// As many bytes as there are; the count.
     std::size_t read_some(std::span<std::byte> out);
 

@@ -367,6 +367,34 @@ TEST(ExrDamage, EveryByteMayBeWrong) {
     expect_damage_survived(kExr, written(kExr, exact_contents(6, 2, 2, 2)));
 }
 
+TEST(ExrProgress, IsToldWhileItIsDecoded) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / "tall.exr";
+    const Image image = exact_image(16, 2048, 3, 0, 0);
+    const Bytes bytes = made(image, {"R", "G", "B"});  // ZIP: 8 times 256 lines
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
+    std::vector<double> shares;
+    ReadOptions options;
+    options.progress = [&](double share) {
+        shares.push_back(share);
+        return true;
+    };
+    expect_same_bits(plain(read_image(path, options)), plain(image));
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_GE(shares.size(), 8u);
+    EXPECT_EQ(shares.back(), 1);
+
+    std::size_t calls = 0;
+    options.progress = [&](double) { return ++calls < shares.size() - 2; };
+    try {
+        static_cast<void>(read_image(path, options));
+        ADD_FAILURE() << "was not cancelled";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), Errc::cancelled);
+    }
+}
+
 // Another program's opinion
 // ------------------------------------------------------------------------
 
