@@ -17,8 +17,8 @@ class WorkBar {
     /// `stop`, if not empty, is asked whether to end, too.
     WorkBar(Desktop& desktop, std::function<bool()> stop);
 
-    /// What work is to call, at any time outside of the drawing of a frame's last part. The bar is
-    /// drawn by the thread that made this; the others' calls only say whether to go on.
+    /// What work called `what` is to call. The bar is drawn by the thread that made this; calls of
+    /// others only say whether to go on.
     [[nodiscard]] Progress progress(std::string what);
 
     /// A frame has been shown: work that took its time is done.

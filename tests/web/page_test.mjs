@@ -308,7 +308,7 @@ test('broken files are refused in the program’s words and change nothing', asy
     'scene.json': [Buffer.from('{"objects": [{"material": {"mirror": 1.5}}]}')],
     'bad.obj': [Buffer.from('v 0 0 0\nf 1 2 3\n')],
     'rubbish.hdr': [Buffer.from('rubbish'), /rubbish\.hdr: is in no format that is known here/],
-    'cut.exr': [exr.subarray(0, exr.length >> 1), /cut\.exr: is no OpenEXR file that can be read/],
+    'cut.exr': [exr.subarray(0, exr.length >> 1), /cut\.exr: is truncated: ends at byte \d+/],
     'cut.png': [readFileSync(join(output, 'grid.png')).subarray(0, 300), /cut\.png: .*cannot decode/],
   };
   // A file whose header says that its levels are packed by Zstandard.
