@@ -374,6 +374,10 @@ std::vector<std::byte> checked_part(const InputFile& file, std::span<const std::
         if (chunks.size() > bytes.size()) file.fail("its chunks lie upon one another");
     });
 
+    if (chosen.find("chunkCount") && chunk_count(file, chosen) != offsets.size())
+        file.fail(
+            fmt::format("has {} chunks, expected {}", chunk_count(file, chosen), offsets.size()));
+
     std::vector<std::byte> result = plain_header(chosen);
     const std::uint64_t chunks_begin = result.size() + 8 * offsets.size();
     for (const std::uint64_t offset : offsets) append_number(result, chunks_begin + offset);

@@ -2,6 +2,8 @@
 // in the whole, and no damage may lead beyond the bytes there are.
 #include "io/exr_parts.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "container_support.h"
@@ -45,6 +47,26 @@ TEST(ExrParts, AloneTheyHoldWhatTheyDidTogether) {
         ASSERT_EQ(alone.levels.size(), parts[i].has_levels ? 4u : 1u);
         FileContents first = plain(alone.levels[0][0]);
         expect_same_bits(first, plain(parts[i].image));
+    }
+}
+
+TEST(ExrParts, CountsOfChunksAreHeldAgainstThePicture) {
+    Bytes bytes = made_parts(three_parts());
+    const std::string name = "chunkCount";
+    const auto as_byte = [](char c) { return std::byte(c); };
+    std::vector<std::byte> wanted(name.size());
+    std::transform(name.begin(), name.end(), wanted.begin(), as_byte);
+    const auto last = std::find_end(bytes.begin(), bytes.end(), wanted.begin(), wanted.end());
+    ASSERT_NE(last, bytes.end());
+    std::byte& count = last[static_cast<std::ptrdiff_t>(name.size() + sizeof "int" + 1 + 4)];
+    ASSERT_EQ(count, std::byte{2}) << "40 lines by PIZ, 32 in a chunk";
+    count = std::byte{3};
+    try {
+        static_cast<void>(cut(bytes, 2));
+        ADD_FAILURE() << "was taken";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("has 3 chunks, expected 2"), std::string::npos)
+            << error.what();
     }
 }
 
