@@ -76,6 +76,10 @@ FacePoint<double> moved_place(const Axes& axes, const Vec3d& direction, const Im
     return place;
 }
 
+Vec3d moved_direction(const Axes& axes, const Vec3d& direction, const Imath::V2d& shift) {
+    return axes.to_world(SphereMap::direction(moved_place(axes, direction, shift)));
+}
+
 double above_horizon(const Vec3d& r, const Vec3d& n) {
     const double share = std::clamp(1 + n.dot(r), 0.0, 1.0);
     return share * share;

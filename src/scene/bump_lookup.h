@@ -42,6 +42,9 @@ class BumpLookup {
 /// world. Beyond the rim there is the rim.
 [[nodiscard]] FacePoint<double> moved_place(const Axes& axes, const Vec3d& direction,
                                             const Imath::V2d& shift);
+/// The direction that such a map shows there.
+[[nodiscard]] Vec3d moved_direction(const Axes& axes, const Vec3d& direction,
+                                    const Imath::V2d& shift);
 
 /// The share of a reflection that a surface's own relief lets pass: 1 above the horizon of the
 /// smooth surface, whose normal is `n`, and (1 + n.r)^2 below it.

@@ -290,14 +290,8 @@ class DirectShading::Impl {
     [[nodiscard]] Vec3d seen(const EnvironmentMap& map, const Vec3d& position,
                              const Vec3d& direction, const View& view) const {
         const Vec3d seen = seen_from_capture(scene_.environment, position, direction);
-        return Vec3d(look_up(map, view.shift ? shifted(map, seen, *view.shift) : seen));
-    }
-
-    // The direction that a sphere map shows beside another; all beyond its rim is one.
-    static Vec3d shifted(const EnvironmentMap& map, const Vec3d& direction,
-                         const Imath::V2d& shift) {
-        return map.axes.to_world(
-            SphereMap::direction(detail::moved_place(map.axes, direction, shift)));
+        return Vec3d(
+            look_up(map, view.shift ? detail::moved_direction(map.axes, seen, *view.shift) : seen));
     }
 
     [[nodiscard]] Vec3d layer_light(const Material& material, const Surface& surface,
@@ -312,7 +306,8 @@ class DirectShading::Impl {
 
     [[nodiscard]] Vec3d diffuse_light(const Material& material, const View& view) const {
         if (material.diffuse == 0) return Vec3d(0);
-        const Vec3d n = view.shift ? shifted(maps_.diffuse, view.n, *view.shift) : view.n;
+        const Vec3d n =
+            view.shift ? detail::moved_direction(maps_.diffuse.axes, view.n, *view.shift) : view.n;
         return Vec3d(look_up(maps_.diffuse, n)) * (material.diffuse / kPi);
     }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <mirrorball/direct.h>
 
@@ -55,7 +56,7 @@ V interpolated(const std::vector<V>& values, const Mesh& mesh, const Hit& hit) {
 // classic form move places on sphere maps: as shaders/bump.glsl and direct.cpp do.
 struct Bumped {
     Vec3d normal;
-    Imath::V2d shift{0, 0};
+    std::optional<Imath::V2d> shift = std::nullopt;
 };
 
 Bumped bumped(const Vec3d& normal, const SceneObject& object, const SceneAssets& assets,
@@ -81,13 +82,6 @@ Bumped bumped(const Vec3d& normal, const SceneObject& object, const SceneAssets&
         place = bump.seen_in_relief(place, {v.dot(tangent), v.dot(bitangent), v.dot(normal)});
     const Imath::V2d slopes = bump.slopes(place);
     return {(normal - tangent * slopes.x - bitangent * slopes.y).normalized()};
-}
-
-// What a sphere map, which is the camera's, shows where a direction's place has been moved to.
-Vec3d moved(const Camera& camera, const Vec3d& direction, const Imath::V2d& shift) {
-    if (shift == Imath::V2d(0, 0)) return direction;
-    const Axes map = axes(camera);
-    return map.to_world(SphereMap::direction(detail::moved_place(map, direction, shift)));
 }
 
 // The ray as the object's mesh has it.
@@ -127,8 +121,9 @@ Hover hover_at(const Scene& scene, const SceneAssets& assets, double x, double y
     if (behind) hover.normal = -hover.normal;
     const Vec3d& n = hover.normal;
     const auto looked_up = [&](const Vec3d& direction) {
-        return moved(scene.camera, seen_from_capture(scene.environment, hover.position, direction),
-                     bump.shift);
+        const Vec3d seen = seen_from_capture(scene.environment, hover.position, direction);
+        // Of sphere maps, which are the camera's.
+        return bump.shift ? detail::moved_direction(axes(scene.camera), seen, *bump.shift) : seen;
     };
     hover.reflected = looked_up(n * (2 * n.dot(v)) - v);
     const Material& material = object.material;

@@ -73,6 +73,10 @@ std::string size_text(const EnvironmentMap& map) {
                      : fmt::format("{} x {}", map.width(), map.height());
 }
 
+Axes axes_of_lookup(Projection projection, const Camera& camera) {
+    return projection == Projection::sphere ? axes(camera) : default_axes(projection);
+}
+
 // In the framebuffer that is bound.
 bool is_depth_tested() {
     GLint framebuffer = 0, type = GL_NONE;
@@ -526,9 +530,8 @@ Hover Viewer::hover(double x, double y, int width, int height) const {
 }
 
 MapPlace Viewer::place_on_map(Projection projection, const Vec3d& direction) const {
-    const Axes looked_up =
-        projection == Projection::sphere ? axes(scene().camera) : default_axes(projection);
-    return mirrorball::place_on_map(projection, looked_up, direction);
+    return mirrorball::place_on_map(projection, axes_of_lookup(projection, scene().camera),
+                                    direction);
 }
 
 const ScreenPicture& Viewer::map_picture(MapContent content, Projection projection, int height) {
@@ -536,9 +539,8 @@ const ScreenPicture& Viewer::map_picture(MapContent content, Projection projecti
     look.environment = turned(assets().environment.axes, scene().environment);
     look.exposure = exposure() * scene().environment.intensity;
     look.tone_map = scene().tone_map;
-    const bool for_camera =
-        projection == Projection::sphere && scene().method != Method::sphere_stale;
-    look.axes = for_camera ? axes(scene().camera) : default_axes(projection);
+    look.axes = scene().method == Method::sphere_stale ? default_axes(projection)
+                                                       : axes_of_lookup(projection, scene().camera);
     const std::vector<Lobe> lobes = lobes_of(scene());
     if (content == MapContent::glossy) {
         const bool selected_is_glossy =

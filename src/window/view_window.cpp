@@ -92,7 +92,6 @@ class ViewWindow {
     Report run();
 
   private:
-    [[nodiscard]] bool is_scripted() const { return window::is_scripted(options_); }
     [[nodiscard]] bool is_done(int frame) const;
     void wait();
     void take_events();
@@ -128,14 +127,14 @@ class ViewWindow {
 
 bool ViewWindow::is_done(int frame) const {
     if (desktop_.is_closed() || session_.quit) return true;
-    return is_scripted() && frame >= options_.frames && next_step_ == options_.script.size() &&
-           waiting_ == 0 && !drag_ && !lobe_;
+    return is_scripted(options_) && frame >= options_.frames &&
+           next_step_ == options_.script.size() && waiting_ == 0 && !drag_ && !lobe_;
 }
 
 // Only while there is nothing to draw.
 void ViewWindow::wait() {
     const bool busy =
-        is_scripted() || lively_frames_ > 0 || session_.time_runs || !viewer_.is_smooth();
+        is_scripted(options_) || lively_frames_ > 0 || session_.time_runs || !viewer_.is_smooth();
     lively_frames_ = std::max(0, lively_frames_ - 1);
     if (busy) return desktop_.wait(0);
     const Clock::time_point start = Clock::now();
@@ -210,12 +209,12 @@ void ViewWindow::draw_picture() {
     const Area& area = session_.picture;
     if (area.width < 1 || area.height < 1) return;
     const int bottom = height - area.height - static_cast<int>(area.top);
-    viewer_.hold(!is_scripted() && ImGui::IsAnyMouseDown());
+    viewer_.hold(!is_scripted(options_) && ImGui::IsAnyMouseDown());
     const auto draw = [&] {
         viewer_.draw(area.width, area.height, static_cast<int>(area.left), bottom);
     };
     // A script has no one to tell.
-    if (is_scripted()) {
+    if (is_scripted(options_)) {
         draw();
     } else {
         session_.attempt(draw);
@@ -293,7 +292,7 @@ Report ViewWindow::run() {
         if (session_.screenshot_asked) take_picture_asked();
         desktop_.swap();
         work_bar_.end();
-        if (is_scripted()) glFinish();
+        if (is_scripted(options_)) glFinish();
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         report.seconds.push_back(seconds);
         session_.frame_seconds += (seconds - session_.frame_seconds) * 0.2;

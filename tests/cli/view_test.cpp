@@ -29,25 +29,20 @@ class ViewVerb : public ::testing::Test {
         }
     }
 
-    /// On a screen of 640 x 480; small pictures unless told otherwise, so that software draws them
-    /// at once.
+    /// On a screen of 640 x 480.
+    static Outcome on_screen(const std::vector<std::string>& command) {
+        std::vector<std::string> words = {"/usr/bin/xvfb-run", "-a", "-s", "-screen 0 640x480x24"};
+        words.insert(words.end(), command.begin(), command.end());
+        return Program(words).wait();
+    }
+    /// Small pictures unless told otherwise, so that software draws them at once.
     static Outcome view(const std::vector<std::string>& more, int width = 96, int height = 72) {
-        std::vector<std::string> words = {"/usr/bin/xvfb-run",
-                                          "-a",
-                                          "-s",
-                                          "-screen 0 640x480x24",
-                                          MIRRORBALL_PROGRAM,
-                                          "view",
-                                          "--width",
-                                          std::to_string(width),
-                                          "--height",
-                                          std::to_string(height),
-                                          "--map-size",
-                                          "64",
-                                          "--env",
+        std::vector<std::string> words = {MIRRORBALL_PROGRAM,    "view",     "--width",
+                                          std::to_string(width), "--height", std::to_string(height),
+                                          "--map-size",          "64",       "--env",
                                           "builtin:axes"};
         words.insert(words.end(), more.begin(), more.end());
-        return Program(words).wait();
+        return on_screen(words);
     }
     std::string target() const { return (folder_ / "shown.png").string(); }
     std::string script(const std::string& text) const {
@@ -148,9 +143,7 @@ TEST_F(ViewVerb, ListensToTheKeyboard) {
         "for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do "
         "[ -f mirrorball-1.png ] && break; xdotool key p; sleep 0.3; done; "
         "xdotool key q; wait $window";
-    const Outcome outcome =
-        Program({"/usr/bin/xvfb-run", "-a", "-s", "-screen 0 640x480x24", "/bin/sh", "-c", shell})
-            .wait();
+    const Outcome outcome = on_screen({"/bin/sh", "-c", shell});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_TRUE(std::filesystem::exists(folder_ / "mirrorball-1.png")) << outcome.err;
 }
@@ -168,9 +161,7 @@ TEST_F(ViewVerb, SaysHowFarLongWorkIsAndEndsIt) {
         ">/dev/null 2>&1 && { seen=yes; break; }; kill -0 $window || break; sleep 0.02; done; "
         "kill $window; wait $window; echo ${seen:-missed} $?";
     // xvfb-run has a code of its own where it cannot clean up.
-    const Outcome outcome =
-        Program({"/usr/bin/xvfb-run", "-a", "-s", "-screen 0 640x480x24", "/bin/sh", "-c", shell})
-            .wait();
+    const Outcome outcome = on_screen({"/bin/sh", "-c", shell});
     if (outcome.out.find("missed") != std::string::npos)
         GTEST_SKIP() << "the work was done before it was seen";
     EXPECT_EQ(outcome.out, "yes 130\n") << outcome.err;

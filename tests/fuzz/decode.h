@@ -13,6 +13,9 @@
 
 namespace mirrorball::detail {
 
+/// The browser's reader of OpenEXR files, in programs that have it beside the usual one.
+extern const Codec kExrByTinyexr;
+
 /// Decodes the bytes as a file of this format, if they begin like one. A refusal is as good as a
 /// picture; whether the bytes were refused.
 inline bool decode_or_refuse(const Codec& codec, std::span<const std::byte> bytes) {

@@ -1,9 +1,5 @@
 #include "decode.h"
 
-namespace mirrorball::detail {
-extern const Codec kExrByTinyexr;
-}
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     mirrorball::detail::decode_or_refuse(mirrorball::detail::kExrByTinyexr,
                                          std::as_bytes(std::span(data, size)));

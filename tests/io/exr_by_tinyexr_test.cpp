@@ -6,11 +6,6 @@
 #include "fuzz/decode.h"
 
 namespace mirrorball {
-namespace detail {
-
-extern const Codec kExrByTinyexr;
-
-}  // namespace detail
 namespace {
 
 using detail::kExr;
